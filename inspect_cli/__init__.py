@@ -1,0 +1,1 @@
+"""Contact-based non-destructive testing by flying robots: plan, fly, report, regress."""

@@ -1,0 +1,20 @@
+"""The one way in which a function of this project is compiled.
+
+A kernel is a module-level pure function of numbers and arrays. ``NUMBA_DISABLE_JIT=1`` runs
+the same source as plain Python: there is no second implementation of any formula. The machine
+code is cached beside the source, so only the first run of an installation compiles.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any, TypeVar, cast
+
+import numba
+
+F = TypeVar("F", bound=Callable[..., Any])
+
+
+def kernel(function: F) -> F:
+    """Compile ``function`` on its first call and keep the machine code on disk."""
+    return cast(F, numba.njit(cache=True, error_model="numpy")(function))

@@ -1,0 +1,1 @@
+"""Control laws: selective impedance, allocation. Kernels with thin typed faces."""

@@ -1,0 +1,127 @@
+"""What the rooms ask of each other: a vehicle's Capabilities, its FlightStack, a Sensor.
+
+Planning, guidance and autonomy know a vehicle through these alone, so that a rigid tilt-rotor,
+an articulated arm and a perching manipulator are planned and flown by the same code.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from typing import Protocol
+
+import numpy as np
+
+from inspect_cli.records import Command, Estimate, Imu, Lengths, Pose, Record, Reference, State
+from inspect_cli.spatial.types import Matrix, Points, Vector
+
+
+@dataclass(frozen=True)
+class Posture:
+    """A whole vehicle at rest: the body's pose and the angles of its arm.
+
+    ``p_WB`` (3,) m in W; ``q_WB`` (4,) wxyz; ``arm_angle`` (n_arm,) rad, empty for a rigid arm.
+    """
+
+    p_WB: Vector
+    q_WB: Vector
+    arm_angle: Vector = field(default_factory=lambda: np.empty(0))
+
+
+@dataclass(frozen=True)
+class Margins:
+    """What is left of the actuators at a posture that also carries a contact wrench."""
+
+    thrust_n: float
+    """Smallest thrust still available in any rotor group, N; negative when it is too much."""
+    tilt_rad: float
+    """Smallest way to a joint's limit, rad; infinite where joints turn freely."""
+
+    @property
+    def feasible(self) -> bool:
+        """Whether the posture can be held."""
+        return self.thrust_n >= 0.0 and self.tilt_rad >= 0.0
+
+
+class Capabilities(Protocol):
+    """What planning and guidance may know of a vehicle; computed on its nominal model."""
+
+    @property
+    def lengths(self) -> Lengths:
+        """The numbers that shapes in records refer to (``n_rotors``, ``n_joints``)."""
+        ...
+
+    @property
+    def max_speed_mps(self) -> float:
+        """The fastest translation that a plan may ask for."""
+        ...
+
+    @property
+    def max_acceleration_mps2(self) -> float:
+        """The largest acceleration that a plan may ask for."""
+        ...
+
+    @property
+    def max_angular_rate_radps(self) -> float:
+        """The fastest turn that a plan may ask for."""
+        ...
+
+    @property
+    def standing_height_m(self) -> float:
+        """Height of O_b over the ground when the vehicle stands on its landing gear."""
+        ...
+
+    def tool_pose(self, posture: Posture) -> tuple[Vector, Matrix]:
+        """(p_WT, R_WT) of a posture."""
+        ...
+
+    def posture_for_tool(self, p_WT: Vector, R_WT: Matrix, near: Posture) -> Posture | None:
+        """The posture that puts the tool there, the closest to ``near``; None if there is none."""
+        ...
+
+    def collision_spheres(self, posture: Posture) -> Points:
+        """Spheres (n, 4) = (p_W, radius) that cover the vehicle but the tool's last part."""
+        ...
+
+    def margins(self, posture: Posture, wrench_tool_W: Vector) -> Margins:
+        """Actuator margins at rest with the contact wrench (6,) acting on the tool's tip in W."""
+        ...
+
+    def press_force(self, press_m: float) -> float:
+        """Steady normal contact force, N, with the set-point ``press_m`` behind the surface."""
+        ...
+
+    def hover_power_w(self, posture: Posture) -> float:
+        """Electrical power at rest, W, by the platform's stated model."""
+        ...
+
+
+class FlightStack(Protocol):
+    """Estimation and control of one vehicle. It never sees a State."""
+
+    estimate: Estimate
+    command: Command
+
+    def on_imu(self, imu: Imu) -> None:
+        """Propagate the estimate with an inertial sample."""
+        ...
+
+    def on_pose(self, pose: Pose) -> None:
+        """Correct the estimate with a pose measurement."""
+        ...
+
+    def control(self, reference: Reference, flying: bool) -> None:
+        """Write the command that follows the reference; motors idle when not ``flying``."""
+        ...
+
+
+class Sensor(Protocol):
+    """A simulated instrument. It reads the truth and writes its own measurement."""
+
+    @property
+    def measurement(self) -> Record:
+        """The record that ``sample`` fills."""
+        ...
+
+    def sample(self, state: State) -> None:
+        """Measure now."""
+        ...

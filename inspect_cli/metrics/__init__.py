@@ -1,0 +1,1 @@
+"""From a RunLog to a Result: tracking, contact, corrosion, acceptance."""

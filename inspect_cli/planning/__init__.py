@@ -1,0 +1,1 @@
+"""Before the flight: contact poses, order, path, feasibility, the Plan. Pure functions."""

@@ -1,0 +1,290 @@
+"""What flows through the flight loop, declared once.
+
+A record class lists its fields as (shape, unit, frame, meaning). From that one declaration
+come the NumPy dtype that kernels see, the MCAP schema, the CSV header, the channel table of
+the documentation, and the typed accessors below. An instance wraps a structured array of
+length one (``.array``): cheap to hand to a kernel, and one assignment logs it.
+
+    estimate = Estimate.create(lengths)
+    estimate.p_WB[:] = 0.0        # a view into the array
+    estimate.t_s = 0.0            # scalars are assigned
+
+Shapes may name a length that the platform decides (``"n_rotors"``, ``"n_joints"``). A platform
+kind adds fields of its own by subclassing a record. Frames: see ``inspect_cli.spatial``.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from enum import IntEnum
+from typing import Any, ClassVar, Self, overload
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from inspect_cli.spatial.types import Structured, Vector
+
+Lengths = Mapping[str, int]
+NO_LENGTHS: Lengths = {}
+
+
+class Field:
+    """The declaration of one field of a record."""
+
+    def __init__(self, shape: tuple[int | str, ...], unit: str, frame: str, meaning: str) -> None:
+        self.shape = shape
+        self.unit = unit
+        self.frame = frame
+        self.meaning = meaning
+        self.name = ""
+
+    def __set_name__(self, owner: type[Record], name: str) -> None:
+        self.name = name
+
+    def resolved_shape(self, lengths: Lengths) -> tuple[int, ...]:
+        """The shape in numbers."""
+        return tuple(lengths[n] if isinstance(n, str) else n for n in self.shape)
+
+
+class ArrayField(Field):
+    """A field that holds float64 numbers; reading it gives a view, so write to ``[...]``."""
+
+    @overload
+    def __get__(self, record: None, owner: type[Record]) -> Self: ...
+    @overload
+    def __get__(self, record: Record, owner: type[Record]) -> Vector: ...
+    def __get__(self, record: Record | None, owner: type[Record]) -> Self | Vector:
+        """The view on the record's numbers, or the declaration when asked of the class."""
+        if record is None:
+            return self
+        return record.views[self.name]
+
+    def __set__(self, record: Record, value: ArrayLike) -> None:
+        record.views[self.name][...] = np.asarray(value)
+
+
+class ScalarField(Field):
+    """A field that holds one float64."""
+
+    def __init__(self, unit: str, meaning: str) -> None:
+        super().__init__((), unit, "", meaning)
+
+    @overload
+    def __get__(self, record: None, owner: type[Record]) -> Self: ...
+    @overload
+    def __get__(self, record: Record, owner: type[Record]) -> float: ...
+    def __get__(self, record: Record | None, owner: type[Record]) -> Self | float:
+        """The number, or the declaration when asked of the class."""
+        if record is None:
+            return self
+        return float(record.views[self.name][0])
+
+    def __set__(self, record: Record, value: float) -> None:
+        record.views[self.name][0] = value
+
+
+def scalar(unit: str, meaning: str) -> ScalarField:
+    """Declare one number."""
+    return ScalarField(unit, meaning)
+
+
+def vector(length: int | str, unit: str, frame: str, meaning: str) -> ArrayField:
+    """Declare a vector; ``length`` may name a number that the platform decides."""
+    return ArrayField((length,), unit, frame, meaning)
+
+
+class Record:
+    """A row of named float64 fields. Subclass it and declare the fields.
+
+    Every record begins with its time. ``topic`` is where the log keeps it.
+    """
+
+    topic: ClassVar[str] = ""
+
+    t_s = scalar("s", "time since the start of the run")
+
+    __slots__ = ("array", "views")
+
+    def __init__(self, array: Structured) -> None:
+        self.array = array
+        self.views: dict[str, Vector] = {}
+        for field in self.fields():
+            view = array[field.name]
+            self.views[field.name] = view if isinstance(field, ScalarField) else view[0]
+
+    @classmethod
+    def fields(cls) -> Iterator[Field]:
+        """The declared fields, base classes first, in order of declaration."""
+        for base in reversed(cls.__mro__):
+            for value in vars(base).values():
+                if isinstance(value, Field):
+                    yield value
+
+    @classmethod
+    def dtype(cls, lengths: Lengths = NO_LENGTHS) -> np.dtype[Any]:
+        """The packed little-endian layout of one record."""
+        return np.dtype([(f.name, "<f8", f.resolved_shape(lengths)) for f in cls.fields()])
+
+    @classmethod
+    def create(cls, lengths: Lengths = NO_LENGTHS) -> Self:
+        """A record of zeros."""
+        return cls(np.zeros(1, cls.dtype(lengths)))
+
+
+class State(Record):
+    """What is so: the true motion and forces. Only sensors, log and metrics may read it."""
+
+    topic = "/truth/state"
+
+    p_WB = vector(3, "m", "W", "position of the body")
+    q_WB = vector(4, "1", "W", "attitude of the body, unit quaternion wxyz")
+    v_WB_W = vector(3, "m/s", "W", "velocity of the body's origin")
+    w_WB_B = vector(3, "rad/s", "B", "angular velocity of the body")
+    a_WB_W = vector(3, "m/s²", "W", "acceleration of the body's origin during the last step")
+    alpha_WB_B = vector(3, "rad/s²", "B", "angular acceleration during the last step")
+    p_WT = vector(3, "m", "W", "position of the tool's tip")
+    f_tool_W = vector(3, "N", "W", "contact force on the tool's tip")
+    f_normal = scalar("N", "normal component of the tool's contact force, pressing is positive")
+    f_body = scalar("N", "contact force on anything but the tool and the landing gear")
+    wrench_ext_B = vector(6, "N, N·m", "B", "all external force and torque about O_b but gravity")
+    joint_angle = vector("n_joints", "rad", "", "angles of tilt and arm joints")
+    joint_rate = vector("n_joints", "rad/s", "", "rates of tilt and arm joints")
+    rotor_thrust = vector("n_rotors", "N", "", "thrust of each rotor in free air")
+
+
+class TrueContact(Record):
+    """What is so at the tool's tip: the nearest true surface and the specimen behind it."""
+
+    topic = "/truth/contact"
+
+    surface = scalar("1", "index of the nearest true surface, −1 for none")
+    distance = scalar("m", "from the tip to that surface, negative when pressed into it")
+    n_W = vector(3, "1", "W", "its outward normal at the tip")
+    uv = vector(2, "m", "S", "coordinates of the tip along it")
+    potential = scalar("V", "potential of the specimen there; NaN without a specimen")
+    resistivity = scalar("Ω·m", "resistivity of the specimen there; NaN without a specimen")
+
+
+class Imu(Record):
+    """One sample of the inertial unit at O_b."""
+
+    topic = "/sensor/imu"
+
+    f_B = vector(3, "m/s²", "B", "specific force")
+    w_B = vector(3, "rad/s", "B", "angular rate")
+
+
+class Pose(Record):
+    """One pose measurement of an external or on-board tracker."""
+
+    topic = "/sensor/pose"
+
+    p_WB = vector(3, "m", "W", "measured position of the body")
+    q_WB = vector(4, "1", "W", "measured attitude of the body, wxyz")
+
+
+class Probe(Record):
+    """One raw sample of the half-cell probe and its load cell."""
+
+    topic = "/sensor/probe"
+
+    potential = scalar("V", "potential of the reinforcement against the probe's electrode")
+    resistance = scalar("Ω", "resistance between probe and reinforcement")
+    force = scalar("N", "force on the probe by its load cell, pressing is positive")
+
+
+class InvalidReason(IntEnum):
+    """Why a reading does not count; 0 means that it does."""
+
+    NONE = 0
+    NOT_VISITED = 1
+    NO_CONTACT = 2
+    FORCE = 3
+    UNSTABLE = 4
+    OPEN_CIRCUIT = 5
+    ABORTED = 6
+
+
+class Reading(Record):
+    """The probe's verdict on one point, written once when the point is left."""
+
+    topic = "/reading"
+
+    target = scalar("1", "index of the target in the plan")
+    potential = scalar("V", "accepted potential; NaN when invalid")
+    resistance = scalar("Ω", "accepted resistance; NaN when invalid")
+    force_mean = scalar("N", "mean load cell force over the accepted window")
+    contact_s = scalar("s", "longest time with sufficient force")
+    p_WT = vector(3, "m", "W", "where the tool's tip was believed to be")
+    valid = scalar("1", "1 if the reading counts, else 0")
+    reason = scalar("1", "an InvalidReason, by number")
+
+
+class SurfaceEstimate(Record):
+    """The local surface as the depth camera saw it."""
+
+    topic = "/guidance/surface"
+
+    p_WC = vector(3, "m", "W", "the surface point on the tool's axis")
+    n_W = vector(3, "1", "W", "outward normal of the surface")
+    distance = scalar("m", "from the tool's tip to the surface along z_T, negative behind it")
+    n_points = scalar("1", "points in the neighbourhood A′_t of the tool's axis")
+    rms = scalar("m", "RMS distance of those points from the fitted plane")
+    valid = scalar("1", "1 if the estimate may be used, else 0")
+
+
+class Estimate(Record):
+    """What the vehicle believes of its own motion and of the forces on it."""
+
+    topic = "/estimate"
+
+    p_WB = vector(3, "m", "W", "position of the body")
+    q_WB = vector(4, "1", "W", "attitude of the body, wxyz")
+    v_WB_W = vector(3, "m/s", "W", "velocity of the body's origin")
+    w_WB_B = vector(3, "rad/s", "B", "angular velocity of the body, bias removed")
+    bias_f_B = vector(3, "m/s²", "B", "accelerometer bias")
+    bias_w_B = vector(3, "rad/s", "B", "gyroscope bias")
+    sigma = vector(15, "m, m/s, rad, m/s², rad/s", "", "standard deviations of p, v, θ, biases")
+    wrench_B = vector(6, "N, N·m", "B", "external wrench about O_b by the momentum observer")
+
+
+class Reference(Record):
+    """Where the vehicle shall be; body pose with derivatives, and the tool's set-point."""
+
+    topic = "/reference"
+
+    p_WB = vector(3, "m", "W", "position of the body")
+    q_WB = vector(4, "1", "W", "attitude of the body, wxyz")
+    v_WB_W = vector(3, "m/s", "W", "velocity of the body's origin")
+    w_WB_B = vector(3, "rad/s", "B", "angular velocity of the body, in the reference's B")
+    a_WB_W = vector(3, "m/s²", "W", "acceleration of the body's origin")
+    alpha_WB_B = vector(3, "rad/s²", "B", "angular acceleration, in the reference's B")
+    p_WT = vector(3, "m", "W", "position of the tool's tip")
+    mode = scalar("1", "mode of the mission executive, by number")
+    target = scalar("1", "index of the target in the plan, −1 for none")
+
+
+class Command(Record):
+    """What the actuators are told."""
+
+    topic = "/command"
+
+    wrench_B = vector(6, "N, N·m", "B", "wrench that the control law asks for")
+    allocated_B = vector(6, "N, N·m", "B", "wrench that the allocation could grant")
+    rotor_thrust = vector("n_rotors", "N", "", "thrust asked of each rotor")
+    joint_angle = vector("n_joints", "rad", "", "angle asked of tilt and arm joints")
+    saturated = scalar("1", "1 if the allocation had to scale the wrench down, else 0")
+
+
+CORE_RECORDS: tuple[type[Record], ...] = (
+    State,
+    TrueContact,
+    Imu,
+    Pose,
+    Probe,
+    Reading,
+    SurfaceEstimate,
+    Estimate,
+    Reference,
+    Command,
+)

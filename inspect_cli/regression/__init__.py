@@ -1,0 +1,1 @@
+"""Flies missions in parallel, compares their metrics with references, tells CI."""

@@ -1,0 +1,1 @@
+"""File models (mission, truth, platform, plan, result) and the strict YAML that fills them."""

@@ -1,0 +1,39 @@
+"""The base of every file model: strict, closed, without NaN, with its unit in each key."""
+
+from __future__ import annotations
+
+from typing import Annotated
+
+from pydantic import AfterValidator, BaseModel, ConfigDict, Field
+
+SCHEMA_VERSION = 1
+
+
+class Strict(BaseModel):
+    """A model that refuses unknown keys, silent conversions, infinities and NaN."""
+
+    model_config = ConfigDict(
+        extra="forbid",
+        strict=True,
+        frozen=True,
+        allow_inf_nan=False,
+        validate_default=True,
+        use_attribute_docstrings=True,
+    )
+
+
+def _unit_length(value: tuple[float, float, float]) -> tuple[float, float, float]:
+    norm = sum(x * x for x in value) ** 0.5
+    if norm < 1e-9:
+        raise ValueError("a direction must not be zero")
+    return (value[0] / norm, value[1] / norm, value[2] / norm)
+
+
+Positive = Annotated[float, Field(gt=0)]
+NonNegative = Annotated[float, Field(ge=0)]
+Triple = tuple[float, float, float]
+PositiveTriple = tuple[Positive, Positive, Positive]
+Direction = Annotated[Triple, AfterValidator(_unit_length)]
+Six = tuple[float, float, float, float, float, float]
+Name = Annotated[str, Field(pattern=r"^[A-Za-z][A-Za-z0-9_.-]*$", max_length=80)]
+Count = Annotated[int, Field(ge=1)]

@@ -1,0 +1,217 @@
+"""``mission.yaml``: what is known of a structure, where to touch it, and what must come out."""
+
+from __future__ import annotations
+
+from typing import Annotated, Literal
+
+from pydantic import Field, model_validator
+
+from inspect_cli.schema.base import (
+    Count,
+    Name,
+    NonNegative,
+    Positive,
+    Strict,
+    Triple,
+)
+from inspect_cli.schema.geometry import Displacement, Shape
+from inspect_cli.schema.truth import TruthModel
+
+Fit = Literal["plane", "sphere", "cylinder", "auto"]
+
+
+class CropBox(Strict):
+    """Keep the points inside a box of world coordinates."""
+
+    min_m: Triple
+    max_m: Triple
+
+    @model_validator(mode="after")
+    def _ordered(self) -> CropBox:
+        for axis, low, high in zip("xyz", self.min_m, self.max_m, strict=True):
+            if low >= high:
+                raise ValueError(f"min_m must be below max_m, but {axis} has {low} ≥ {high}")
+        return self
+
+
+class FitOptions(Strict):
+    """How a primitive is fitted to points."""
+
+    inlier_m: Positive = 0.02
+    """Points within this distance of the surface support it."""
+    voxel_m: NonNegative = 0.0
+    """Down-sample to one point per voxel of this size; 0 keeps every point."""
+    side: Literal["outside", "inside"] | None = None
+    """From which side a sphere or cylinder is touched; by default the side of the start pose."""
+
+
+class SurfaceSource(Strict):
+    """A surface, given as a shape or fitted to a cloud or a mesh: exactly one of the three."""
+
+    shape: Shape | None = None
+    cloud: str | None = None
+    """PLY, PCD, XYZ, CSV, LAS, LAZ or E57, in the campaign folder."""
+    mesh: str | None = None
+    """STL, OBJ or PLY, in the campaign folder."""
+    fit: Fit = "auto"
+    options: FitOptions = FitOptions()
+    crop: CropBox | None = None
+    placed: Displacement = Displacement()
+    """Brings the file's coordinates into the world."""
+
+    @model_validator(mode="after")
+    def _one_source(self) -> SurfaceSource:
+        given = [n for n in ("shape", "cloud", "mesh") if getattr(self, n) is not None]
+        if len(given) != 1:
+            found = " and ".join(given) if given else "none"
+            raise ValueError(f"give exactly one of shape, cloud, mesh; found {found}")
+        return self
+
+
+class StructureSurface(Strict):
+    """One named surface of the structure as the planner may know it."""
+
+    name: Name
+    surface: SurfaceSource
+
+
+class ContactOptions(Strict):
+    """How each point of a task is touched."""
+
+    press_m: Annotated[float, Field(gt=0, le=1.0)] = 0.10
+    """Set-point behind the surface while pressing."""
+    dwell_s: Positive = 3.0
+    """Time with sufficient force before a reading may be accepted."""
+    standoff_m: Positive = 0.25
+    """Distance of the tool's tip from the surface before approach and after retreat."""
+
+
+class ContactGrid(ContactOptions):
+    """A grid of points along the surface's level direction u and along v."""
+
+    on: Name
+    rows: Count
+    columns: Count
+    pitch_m: Positive
+    offset_m: tuple[float, float] = (0.0, 0.0)
+    """(u, v) of the grid's middle from the middle of the surface."""
+    order: Literal["boustrophedon", "rows", "shortest"] = "boustrophedon"
+
+
+class ContactPoints(ContactOptions):
+    """Points given one by one."""
+
+    on: Name
+    at_m: Annotated[tuple[Triple, ...], Field(min_length=1)]
+    """World positions on the surface, within ``tolerance_m`` of it."""
+    tolerance_m: Positive = 0.05
+    order: Literal["given", "shortest"] = "given"
+
+
+class Task(Strict):
+    """Something to touch and the instrument to touch it with."""
+
+    contact_grid: ContactGrid | None = None
+    contact_points: ContactPoints | None = None
+    sensor: Literal["half_cell"] = "half_cell"
+
+    @model_validator(mode="after")
+    def _one_task(self) -> Task:
+        given = [n for n in ("contact_grid", "contact_points") if getattr(self, n) is not None]
+        if len(given) != 1:
+            raise ValueError("give exactly one of contact_grid, contact_points")
+        return self
+
+    @property
+    def contact(self) -> ContactGrid | ContactPoints:
+        """The one that is given."""
+        chosen = self.contact_grid or self.contact_points
+        assert chosen is not None  # the validator saw to it
+        return chosen
+
+
+class Start(Strict):
+    """Where the vehicle stands before take-off and lands again."""
+
+    position_m: tuple[float, float] = (0.0, 0.0)
+    heading_deg: float = 0.0
+    takeoff_height_m: Positive = 1.0
+
+
+class FlightOptions(Strict):
+    """How the plan may fly; lowers the platform's limits, never raises them."""
+
+    speed_mps: Positive = 0.5
+    approach_speed_mps: Positive = 0.1
+    clearance_m: NonNegative = 0.05
+    """Least distance of the vehicle's body from the structure along the whole path."""
+
+
+class Over(Strict):
+    """Divide by another mission's metric at the same seed."""
+
+    mission: Name
+    metric: str
+
+
+class Acceptance(Strict):
+    """A bound on a metric; ``ref`` names the ledger row that it answers for."""
+
+    metric: str
+    min: float | None = None
+    max: float | None = None
+    ref: str | None = None
+    over: Over | None = None
+    known_failure: str | None = None
+    """Why this check cannot hold: shown as ``fail-known`` and counted apart."""
+
+    @model_validator(mode="after")
+    def _bounded(self) -> Acceptance:
+        if self.min is None and self.max is None:
+            raise ValueError("give min, max or both")
+        if self.min is not None and self.max is not None and self.min > self.max:
+            raise ValueError(f"min {self.min} is above max {self.max}")
+        return self
+
+
+class Mission(Strict):
+    """What the planner may know. ``truth`` is split off by the loader and is not part of it."""
+
+    schema_version: Annotated[Literal[1], Field(alias="schema")] = 1
+    name: Name
+    title: str = ""
+    description: str = ""
+    platform: str
+    """Name of a platform in ``platforms/``, or a path to its file in the campaign folder."""
+    impedance: Name = "contact_ndt"
+    """Which of the platform's impedance profiles to fly with."""
+    estimation: Literal["external"] = "external"
+    seeds: Annotated[tuple[Annotated[int, Field(ge=0)], ...], Field(min_length=1)] = (1, 2, 3)
+    tags: tuple[Name, ...] = ()
+    start: Start = Start()
+    flight: FlightOptions = FlightOptions()
+    structure: Annotated[tuple[StructureSurface, ...], Field(min_length=1)]
+    tasks: Annotated[tuple[Task, ...], Field(min_length=1)]
+    expect_status: Literal["completed", "aborted"] = "completed"
+    """How the flight has to end for the regression to pass."""
+    acceptance: tuple[Acceptance, ...] = ()
+
+    @model_validator(mode="after")
+    def _names_resolve(self) -> Mission:
+        names = [s.name for s in self.structure]
+        for name in names:
+            if names.count(name) > 1:
+                raise ValueError(f"two surfaces are named '{name}'")
+        for task in self.tasks:
+            if task.contact.on not in names:
+                known = ", ".join(names)
+                raise ValueError(f"a task is on '{task.contact.on}'; the surfaces are: {known}")
+        return self
+
+
+class MissionFile(Mission):
+    """The whole file: the mission and the truth."""
+
+    extends: str | None = None
+    """Another mission in the campaign folder whose entries hold where this file has none."""
+    truth: TruthModel = TruthModel()

@@ -1,0 +1,101 @@
+"""``plan.json``: what the planner decided, complete enough to fly from."""
+
+from __future__ import annotations
+
+from typing import Annotated, Literal
+
+from pydantic import Field
+
+from inspect_cli.schema.base import Name, NonNegative, Positive, Strict, Triple
+from inspect_cli.schema.geometry import Shape
+
+Quaternion = tuple[float, float, float, float]
+
+
+class PostureModel(Strict):
+    """A vehicle at rest: body pose and the angles of its arm."""
+
+    p_WB: Triple
+    q_WB: Quaternion
+    arm_angle_rad: tuple[float, ...] = ()
+
+
+class FitReport(Strict):
+    """How well a primitive explains its points."""
+
+    method: str
+    points: int
+    inliers: int
+    inlier_share: float
+    rms_m: float
+    parameter_sd: dict[str, float]
+    """Standard deviation of each fitted parameter, named with its unit."""
+
+
+class PlannedSurface(Strict):
+    """A surface as the planner believes it, with how it came to believe so."""
+
+    name: Name
+    shape: Shape
+    source: str
+    fit: FitReport | None = None
+
+
+class Target(Strict):
+    """Something that the vehicle goes to: a contact, a perch or a pose in free air."""
+
+    index: Annotated[int, Field(ge=0)]
+    label: str
+    kind: Literal["contact", "perch", "pose"]
+    surface: Name | None
+    uv_m: tuple[float, float] | None
+    """Coordinates on the surface."""
+    p_WC: Triple
+    """The planned contact point."""
+    n_W: Triple
+    """Outward normal of the fitted surface there."""
+    q_WT: Quaternion
+    sensor: Literal["half_cell"] | None
+    press_m: NonNegative
+    dwell_s: NonNegative
+    standoff_m: NonNegative
+    standoff: PostureModel
+    """The vehicle with its tool ``standoff_m`` from the surface."""
+    contact: PostureModel
+    """The vehicle with its tip on the surface; the set-point lies ``press_m`` behind it."""
+    expected_force_n: NonNegative
+    thrust_margin_n: float
+    tilt_margin_rad: float | None
+    """None where tilts turn freely."""
+    clearance_m: float
+    """Least distance of the body from the structure on the way in and out."""
+
+
+class Leg(Strict):
+    """A stretch of the flight. Postures are passed at rest, so each stretch can be cut short."""
+
+    kind: Literal["takeoff", "transit", "approach", "press", "retreat", "land"]
+    target: int | None
+    postures: Annotated[tuple[PostureModel, ...], Field(min_length=1)]
+    """Where it leads: way-points in order; the last is its end."""
+    speed_mps: Positive
+    duration_s: Positive
+    """As planned, with the time for the dwell."""
+
+
+class Plan(Strict):
+    """The whole flight."""
+
+    schema_version: Annotated[Literal[1], Field(alias="schema")] = 1
+    mission: Name
+    platform: Name
+    surfaces: tuple[PlannedSurface, ...]
+    start: PostureModel
+    targets: tuple[Target, ...]
+    legs: tuple[Leg, ...]
+    duration_s: Positive
+    energy_wh: Positive
+    path_m: Positive
+    cable_m: float
+    """Longest straight distance from the start to a target that the cable has to span."""
+    warnings: tuple[str, ...] = ()

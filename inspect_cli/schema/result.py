@@ -1,0 +1,74 @@
+"""``metrics.json``: what a run came to. The report draws it and never computes."""
+
+from __future__ import annotations
+
+from typing import Annotated, Literal
+
+from pydantic import Field
+
+from inspect_cli.schema.base import Strict, Triple
+
+Status = Literal["completed", "aborted", "diverged", "interrupted"]
+Verdict = Literal["pass", "fail", "fail-known", "not_measured"]
+
+
+class Check(Strict):
+    """One acceptance entry, answered."""
+
+    metric: str
+    value: float | None
+    unit: str
+    min: float | None
+    max: float | None
+    ref: str | None
+    verdict: Verdict
+    reason: str = ""
+    """Why it is not measured, or the mission's ``known_failure``."""
+
+
+class Metric(Strict):
+    """A number with its unit; ``None`` when the log lacks what it is computed from."""
+
+    value: float | None
+    unit: str
+    why: str = ""
+
+
+class PointResult(Strict):
+    """One target of the plan and what became of it."""
+
+    index: int
+    label: str
+    valid: bool
+    reason: str
+    """Why it is invalid, in words; empty when valid."""
+    p_W: Triple
+    """Where the tool was believed to be; the planned point if it never got there."""
+    uv_m: tuple[float, float] | None
+    potential_mv: float | None
+    resistance_ohm: float | None
+    resistivity_ohm_m: float | None
+    probe_force_n: float | None
+    contact_s: float
+    astm_class: Literal["passive", "uncertain", "active"] | None
+    corrosion: Literal["none", "possible", "active"] | None
+    """The combined verdict of potential and resistance, by the rule that the report states."""
+    true_force_n: float | None = None
+    """Mean true normal force over the last 2 s of the dwell."""
+    true_force_peak_n: float | None = None
+    position_error_m: float | None = None
+    """Between the planned and the true contact point, along the surface."""
+
+
+class Result(Strict):
+    """The whole of ``metrics.json``."""
+
+    schema_version: Annotated[Literal[1], Field(alias="schema")] = 1
+    mission: str
+    platform: str
+    seed: int | None
+    status: Status
+    status_reason: str = ""
+    checks: tuple[Check, ...]
+    metrics: dict[str, Metric]
+    points: tuple[PointResult, ...]

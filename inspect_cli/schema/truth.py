@@ -1,0 +1,116 @@
+"""``truth:`` of a mission: what is really there. Only the simulator and the sensors see it.
+
+Without an entry for something, the belief holds there: a surface without truth is exactly where
+the planner's fit put it, the vehicle weighs what its platform file says.
+"""
+
+from __future__ import annotations
+
+from typing import Annotated, Literal
+
+from pydantic import Field
+
+from inspect_cli.schema.base import Name, NonNegative, Positive, Strict, Triple
+from inspect_cli.schema.geometry import Displacement, Shape
+
+
+class AnalyticSpot(Strict):
+    """A Gaussian depression of potential around an active site, on the surface's (u, v)."""
+
+    at_m: tuple[float, float]
+    depth_v: Positive
+    """How much more negative the potential is at the centre."""
+    radius_m: Positive
+    """Standard deviation of the Gaussian."""
+    resistivity_factor: Positive = 1.0
+    """Resistivity at the centre as a share of the sound concrete's."""
+
+
+class AnalyticSpecimen(Strict):
+    """Sound concrete with Gaussian active spots; potentials in V against copper sulphate."""
+
+    model: Literal["analytic"]
+    potential_v: float = -0.1
+    resistivity_ohm_m: Positive = 200.0
+    spots: tuple[AnalyticSpot, ...] = ()
+
+
+class GridSpecimen(Strict):
+    """Potential and resistivity measured on a grid, interpolated bilinearly between its nodes."""
+
+    model: Literal["grid"]
+    potential_mv: str
+    """File of potentials, mV against copper sulphate: CSV, or columns of plain numbers."""
+    resistivity_kohm_cm: str
+    """File of resistivities of the same grid, kΩ·cm."""
+    pitch_m: Positive
+    at_m: tuple[float, float] = (0.0, 0.0)
+    """(u, v) of the grid's middle on the surface; columns run along u, rows along −v."""
+
+
+Specimen = Annotated[AnalyticSpecimen | GridSpecimen, Field(discriminator="model")]
+
+
+class TrueSurface(Strict):
+    """What one of the structure's surfaces really is."""
+
+    geometry: Shape | None = None
+    """The true shape; without it, the shape that the planner believes in."""
+    moved: Displacement = Displacement()
+    """Turns and shifts the true shape, and the specimen with it."""
+    absent: bool = False
+    """Nothing is there at all."""
+    friction: NonNegative = 0.5
+    """Coulomb friction between the tool's tip and the surface."""
+    specimen: Specimen | None = None
+
+
+class TruePlatform(Strict):
+    """How the real vehicle differs from its platform file."""
+
+    mass_factor: Positive = 1.0
+    """Scales mass and inertia of every body."""
+    com_offset_m: Triple = (0.0, 0.0, 0.0)
+    """Shifts the centre of mass of the core, in B."""
+
+
+class ConstantWrench(Strict):
+    """A force and a torque that act on the body from ``start_s`` on."""
+
+    kind: Literal["constant"] = "constant"
+    frame: Literal["world", "body"] = "world"
+    force_n: Triple = (0.0, 0.0, 0.0)
+    torque_nm: Triple = (0.0, 0.0, 0.0)
+    start_s: NonNegative = 0.0
+    ramp_s: NonNegative = 1.0
+    """The wrench rises linearly over this time."""
+
+
+Disturbance = ConstantWrench
+
+
+class ProximityEffects(Strict):
+    """Aerodynamic effects of near surfaces on the rotors; see ``truth.proximity``."""
+
+    ground: bool = True
+    ceiling: bool = True
+    wall: bool = True
+
+
+class SensorFault(Strict):
+    """A sensor that fails during the flight."""
+
+    sensor: Literal["tof", "pose", "imu", "probe"]
+    fault: Literal["off", "nan"] = "off"
+    start_s: NonNegative = 0.0
+    end_s: Positive | None = None
+
+
+class TruthModel(Strict):
+    """Everything that is so and that no planner, estimator or controller may know."""
+
+    structure: dict[Name, TrueSurface] = {}
+    platform: TruePlatform = TruePlatform()
+    disturbances: tuple[Disturbance, ...] = ()
+    proximity: ProximityEffects = ProximityEffects()
+    faults: tuple[SensorFault, ...] = ()

@@ -1,0 +1,1 @@
+"""The world, the plant (the only mj_step), the clock and the flight loop. May read the truth."""

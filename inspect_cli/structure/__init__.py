@@ -1,0 +1,1 @@
+"""What is believed of the structure: clouds, meshes, robust fits, planned surfaces."""

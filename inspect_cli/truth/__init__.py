@@ -1,0 +1,1 @@
+"""What is so: true geometry, specimens, disturbances, proximity effects, faults."""

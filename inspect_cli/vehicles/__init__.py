@@ -1,0 +1,1 @@
+"""One module per kind of platform: nominal MuJoCo model, Capabilities, flight stack."""
