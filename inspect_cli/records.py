@@ -193,6 +193,21 @@ class Probe(Record):
     force = scalar("N", "force on the probe by its load cell, pressing is positive")
 
 
+class Mode(IntEnum):
+    """What the mission executive is doing; kept in ``Reference.mode``."""
+
+    IDLE = 0
+    TAKEOFF = 1
+    TRANSIT = 2
+    APPROACH = 3
+    PRESS = 4
+    RETREAT = 5
+    LAND = 6
+    LANDED = 7
+    HOVER = 8
+    """Safe hover after an abort."""
+
+
 class InvalidReason(IntEnum):
     """Why a reading does not count; 0 means that it does."""
 
