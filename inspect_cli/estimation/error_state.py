@@ -1,0 +1,153 @@
+"""Error-state Kalman filter: inertial samples propagate, pose measurements correct.
+
+The mathematics stands in ``inspect_cli.estimation.kalman``; here stand time, gate and recovery.
+
+An inertial sample is taken at an instant. Between two samples the filter uses their mean (the
+trapezoidal rule), so it is not half a sample behind. A pose that falls between two samples is
+reached with the older sample held; the rest of the interval then gets what is missing from
+the trapezoid.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import Final
+
+import numpy as np
+
+from inspect_cli.estimation.kalman import (
+    STATES,
+    correct_pose,
+    pose_innovation,
+    propagate,
+    publish,
+    take_sample,
+)
+from inspect_cli.records import Estimate, Imu, Pose
+from inspect_cli.schema.platform import ImuModel, PoseModel
+from inspect_cli.spatial.rotations import quaternion_normalize
+from inspect_cli.spatial.types import Vector
+
+GATE: Final = 38.258
+"""A pose is rejected above this: the χ² quantile (6 degrees of freedom) of probability 1 − 1e-6."""
+
+RESTART_AFTER: Final = 20
+"""Poses rejected in a row after which the tracker is believed against the filter."""
+
+START_SPEED_MPS: Final = 1.0
+"""Standard deviation of each velocity component when the motion (re)starts from a pose."""
+
+# The least noise that the filter assumes. An ideal sensor still leaves out what happens between
+# its samples, and a covariance of exactly zero would never learn again.
+ACCEL_FLOOR: Final = 1e-4
+GYRO_FLOOR: Final = 1e-5
+POSITION_FLOOR_M: Final = 1e-5
+ATTITUDE_FLOOR_RAD: Final = 1e-5
+
+
+class ErrorStateFilter:
+    """Position, velocity, attitude and inertial biases of the body, with their covariance.
+
+    ``rejected`` counts the poses rejected in a row. A lone outlier is ignored; after
+    ``RESTART_AFTER`` of them (0.2 s at 100 Hz) position and attitude are taken from the tracker
+    and the velocity is learnt anew, while the biases and their covariance stay.
+    """
+
+    def __init__(self, imu_model: ImuModel, pose_model: PoseModel, imu_hz: int) -> None:
+        self._imu_hz = imu_hz
+        self._bias_variance = np.repeat(
+            [imu_model.accel_bias_initial_mps2**2, imu_model.gyro_bias_initial_radps**2], 3
+        )
+        density = [
+            max(imu_model.accel_noise, ACCEL_FLOOR),
+            max(imu_model.gyro_noise, GYRO_FLOOR),
+            imu_model.accel_bias_walk,
+            imu_model.gyro_bias_walk,
+        ]
+        self._noise = np.square(density)
+        position_sd = max(pose_model.position_noise_m, POSITION_FLOOR_M)
+        attitude_sd = max(pose_model.attitude_noise_rad, ATTITUDE_FLOOR_RAD)
+        self._pose_variance = np.repeat([position_sd**2, attitude_sd**2], 3)
+        self._p, self._v, self._q = np.zeros(3), np.zeros(3), np.array([1.0, 0.0, 0.0, 0.0])
+        self._bias = np.zeros(6)
+        self._P = np.zeros((STATES, STATES))
+        self._t = 0.0
+        self._held, self._held_t = np.zeros(6), math.nan
+        self._mean = np.zeros(6)
+        self.rejected = 0
+
+    def start(self, pose: Pose, estimate: Estimate) -> None:
+        """Begin at rest at a measured pose, with biases unknown as the model says.
+
+        Raises ValueError for a pose that is not finite.
+        """
+        if not (np.isfinite(pose.p_WB).all() and np.isfinite(pose.q_WB).all()):
+            raise ValueError("the filter cannot start from a pose that is not finite")
+        self._bias[:] = 0.0
+        self._P[:] = 0.0
+        np.fill_diagonal(self._P[9:, 9:], self._bias_variance)
+        self._held[:], self._held_t = 0.0, math.nan
+        self._t = pose.t_s
+        self._restart_motion(pose)
+        self._publish(estimate)
+
+    def propagate(self, imu: Imu, estimate: Estimate) -> None:
+        """Advance to the time of an inertial sample; one that is not finite is ignored."""
+        t = imu.t_s
+        dt = t - self._t
+        share = 1.0
+        if dt > 0.0 and not math.isnan(self._held_t):
+            share = 0.5 * (t - self._held_t) / dt
+        if not take_sample(self._held, self._mean, imu.f_B, imu.w_B, share):
+            return
+        self._held_t = t
+        if dt > 0.0:
+            self._advance(self._mean, dt)
+        self._publish(estimate)
+
+    def correct(self, pose: Pose, estimate: Estimate) -> bool:
+        """Correct with a pose measurement; False if it was rejected or is not finite."""
+        dt = pose.t_s - self._t
+        if dt > 0.0 and not math.isnan(self._held_t):
+            self._advance(self._held, dt)
+        innovation = pose_innovation(self._p, self._q, pose.p_WB, pose.q_WB)
+        chi2 = correct_pose(
+            self._p, self._v, self._q, self._bias, self._P, innovation, self._pose_variance, GATE
+        )
+        accepted = chi2 <= GATE or self._outvoted(pose, chi2)
+        if accepted:
+            self.rejected = 0
+        self._publish(estimate)
+        return accepted
+
+    def _outvoted(self, pose: Pose, chi2: float) -> bool:
+        """Count a rejection; restart from the pose when there were too many."""
+        if math.isnan(chi2):
+            return False
+        self.rejected += 1
+        if self.rejected < RESTART_AFTER:
+            return False
+        self._restart_motion(pose)
+        return True
+
+    def _advance(self, sample: Vector, dt: float) -> None:
+        # A sample that serves for longer than its period carries its error all along.
+        stretch = dt * self._imu_hz
+        noise = self._noise if stretch < 1.5 else self._noise * stretch
+        propagate(self._p, self._v, self._q, self._bias, self._P, sample, dt, noise)
+        self._t += dt
+
+    def _restart_motion(self, pose: Pose) -> None:
+        self._p[:] = pose.p_WB
+        self._q[:] = quaternion_normalize(pose.q_WB)
+        self._v[:] = 0.0
+        self._P[:9, :] = 0.0
+        self._P[:, :9] = 0.0
+        position, attitude = self._pose_variance[:3], self._pose_variance[3:]
+        speed = np.full(3, START_SPEED_MPS**2)
+        np.fill_diagonal(self._P[:9, :9], np.concatenate([position, speed, attitude]))
+        self.rejected = 0
+
+    def _publish(self, estimate: Estimate) -> None:
+        estimate.t_s = self._t
+        publish(self._p, self._v, self._q, self._bias, self._P, self._held, estimate.array)

@@ -1,0 +1,83 @@
+"""Simulated half-cell probe with its load cell.
+
+In contact (true normal force above 0.05 N), with the specimen's potential E and resistivity ρ
+under the tip, t the wetted time, τ the wetting time and k the cell constant:
+
+    potential  = E + dry_offset e^(−t/τ) + σ_E n₁
+    resistance = ρ/k (1 + e^(−t/τ) + max(0, 1 − F/F_min)) (1 + σ_R n₂)
+
+Both excesses of the resistance are a stated choice: a contact that is not wetted yet, or that is
+pressed with less than F_min, has a smaller effective area. Wetted time counts the contact and is
+lost with the time constant ``DRYING_S`` while the probe is lifted, so each point starts dry and a
+bounce does not.
+
+Out of contact, or where there is no specimen, the circuit is open: the input of at least 10 MΩ
+(ASTM C876, section 6) floats and the ohmmeter is over range. The load cell always measures.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import Final
+
+import numpy as np
+
+from inspect_cli.records import Probe, State, TrueContact
+from inspect_cli.schema.platform import HalfCellModel
+from inspect_cli.sensing.instrument import Noise
+
+TOUCH_N: Final = 0.05
+"""True normal force from which the electrode touches."""
+DRYING_S: Final = 0.5
+"""Time constant with which a lifted contact loses its wetted time."""
+OVER_RANGE_OHM: Final = 1e9
+"""What the ohmmeter shows over range; a number, so that it can be logged."""
+FLOATING_V: Final = 0.2
+"""Standard deviation of an open input's potential around zero."""
+FLOATING_S: Final = 0.3
+"""Time constant of its wandering."""
+
+
+class HalfCellProbe:
+    """Potential, resistance and force at the tool's tip."""
+
+    def __init__(self, model: HalfCellModel, rng: np.random.Generator) -> None:
+        self.measurement = Probe.create()
+        self._model = model
+        self._noise = Noise(rng, 4)
+        self._t = 0.0
+        self._wetted_s = 0.0
+        self._floating_v = 0.0
+
+    def sample(self, state: State, contact: TrueContact) -> None:
+        """Measure now; ``contact`` tells what lies under the tip."""
+        t, force = state.t_s, state.f_normal
+        dt, self._t = t - self._t, t
+        noise = self._noise.draw().tolist()
+        self._float(dt, noise[3])
+        measurement = self.measurement
+        measurement.t_s = t
+        measurement.force = force + self._model.force_noise_n * noise[2]
+        measurement.potential = self._floating_v
+        measurement.resistance = OVER_RANGE_OHM
+        if not force > TOUCH_N:
+            self._wetted_s *= math.exp(-dt / DRYING_S)
+            return
+        self._wetted_s += dt
+        potential, resistivity = contact.potential, contact.resistivity
+        if math.isnan(potential) or math.isnan(resistivity):
+            return
+        model = self._model
+        dryness = math.exp(-self._wetted_s / model.wetting_s)
+        lightness = max(0.0, 1.0 - force / model.min_force_n)
+        potential += model.dry_offset_v * dryness + model.potential_noise_v * noise[0]
+        resistance = resistivity / model.cell_constant_m * (1.0 + dryness + lightness)
+        resistance *= 1.0 + model.resistance_noise * noise[1]
+        measurement.potential = potential
+        measurement.resistance = min(max(0.0, resistance), OVER_RANGE_OHM)
+
+    def _float(self, dt: float, noise: float) -> None:
+        """Let the open input wander: an Ornstein–Uhlenbeck process."""
+        keep = math.exp(-dt / FLOATING_S)
+        spread = FLOATING_V * math.sqrt(1.0 - keep * keep)
+        self._floating_v = keep * self._floating_v + spread * noise

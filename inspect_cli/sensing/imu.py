@@ -1,0 +1,85 @@
+"""Simulated inertial unit at O_b: white noise and bias random walks.
+
+    f_m = R_WBᵀ (a_WB_W − g_W) + b_f + σ_f/√Δt n₁        b_f ← b_f + σ_bf √Δt n₃
+    w_m = w_WB_B            + b_w + σ_w/√Δt n₂        b_w ← b_w + σ_bw √Δt n₄
+
+n_i standard normal, Δt = 1 / rate: the discrete form of the continuous noise model in
+N. Trawny & S. Roumeliotis, "Indirect Kalman filter for 3D attitude estimation" (University of
+Minnesota, TR 2005-002), section 1.2.
+"""
+
+from __future__ import annotations
+
+from typing import Final
+
+import numpy as np
+
+from inspect_cli.compiled import kernel
+from inspect_cli.records import Imu, State
+from inspect_cli.schema.platform import ImuModel
+from inspect_cli.sensing.instrument import Noise
+from inspect_cli.spatial.rotations import rotate_back
+from inspect_cli.spatial.types import Vector
+
+GRAVITY_MPS2: Final = 9.81
+"""MuJoCo's default."""
+
+
+@kernel
+def measure_motion(
+    q: Vector,
+    a_W: Vector,
+    w_B: Vector,
+    noise: Vector,
+    sd: Vector,
+    bias: Vector,
+    f_measured: Vector,
+    w_measured: Vector,
+) -> None:
+    """Write specific force and rate, and let the biases walk.
+
+    ``noise`` (12,) standard normal for f, w, b_f, b_w; ``sd`` (4,) their standard deviations per
+    sample; ``bias`` (6,) = (b_f, b_w), changed in place.
+    """
+    push = a_W.copy()
+    push[2] += GRAVITY_MPS2
+    f_B = rotate_back(q, push)
+    for i in range(3):
+        f_measured[i] = f_B[i] + bias[i] + sd[0] * noise[i]
+        w_measured[i] = w_B[i] + bias[3 + i] + sd[1] * noise[3 + i]
+        bias[i] += sd[2] * noise[6 + i]
+        bias[3 + i] += sd[3] * noise[9 + i]
+
+
+class ImuSensor:
+    """Specific force and angular rate of the body."""
+
+    def __init__(self, model: ImuModel, rate_hz: int, rng: np.random.Generator) -> None:
+        self.measurement = Imu.create()
+        root = np.sqrt(rate_hz)
+        self._sd = np.array(
+            [
+                model.accel_noise * root,
+                model.gyro_noise * root,
+                model.accel_bias_walk / root,
+                model.gyro_bias_walk / root,
+            ]
+        )
+        initial = [model.accel_bias_initial_mps2, model.gyro_bias_initial_radps]
+        self._bias = np.repeat(initial, 3) * rng.standard_normal(6)
+        self._noise = Noise(rng, 12)
+
+    def sample(self, state: State) -> None:
+        """Measure now."""
+        measurement = self.measurement
+        measurement.t_s = state.t_s
+        measure_motion(
+            state.q_WB,
+            state.a_WB_W,
+            state.w_WB_B,
+            self._noise.draw(),
+            self._sd,
+            self._bias,
+            measurement.f_B,
+            measurement.w_B,
+        )

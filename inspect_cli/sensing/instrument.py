@@ -1,0 +1,30 @@
+"""What the simulated instruments share: standard normal numbers, drawn in blocks."""
+
+from __future__ import annotations
+
+from typing import Final
+
+import numpy as np
+
+from inspect_cli.spatial.types import Vector
+
+BLOCK: Final = 256
+"""Samples drawn at once; one call of the generator per sample would cost more than the sample."""
+
+
+class Noise:
+    """A stream of independent standard normal vectors (``width``,) from one generator."""
+
+    def __init__(self, rng: np.random.Generator, width: int) -> None:
+        self._rng = rng
+        self._block = np.empty((BLOCK, width))
+        self._next = BLOCK
+
+    def draw(self) -> Vector:
+        """The next vector: a view that stays as it is until the next call."""
+        if self._next == BLOCK:
+            self._rng.standard_normal(out=self._block)
+            self._next = 0
+        row: Vector = self._block[self._next]
+        self._next += 1
+        return row
