@@ -1,0 +1,57 @@
+"""A campaign folder: ``missions/``, ``platforms/`` and ``reports/`` beside each other.
+
+A mission's campaign is the folder that holds the nearest ``missions/`` above the mission file,
+or the file's own folder where there is none. Paths in a mission are relative to the file they
+stand in and must stay inside the campaign.
+"""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+FOLDERS = ("missions", "platforms", "reports")
+
+
+def builtin_root() -> Path:
+    """The folder that holds the built-in ``missions/`` and ``platforms/``.
+
+    An installed package carries them inside itself; in a checkout they stand at the top level.
+    """
+    package = Path(__file__).resolve().parent.parent
+    carried = package / "builtin"
+    return carried if carried.is_dir() else package.parent
+
+
+def campaign_root(mission: Path) -> Path:
+    """The campaign folder of a mission file, symlinks resolved."""
+    folder = mission.resolve().parent
+    for above in (folder, *folder.parents):
+        if above.name == "missions":
+            return above.parent
+    return folder
+
+
+def platform_files(root: Path) -> dict[str, Path]:
+    """The platforms that a mission of this campaign may name; its own come before built-in ones."""
+    return {
+        file.stem: file
+        for place in (builtin_root(), root)
+        for file in sorted((place / "platforms").glob("*.yaml"))
+    }
+
+
+def inside(root: Path, folder: Path, relative: str) -> Path | None:
+    """``relative`` to ``folder`` with symlinks resolved, None if it leads out of the campaign."""
+    try:
+        target = (folder / relative).resolve()
+    except (OSError, ValueError, RuntimeError):  # a zero byte, a loop of symlinks
+        return None
+    return target if target.is_relative_to(root.resolve()) else None
+
+
+def is_file(path: Path) -> bool:
+    """Whether there is a readable regular file; a name that is too long is none."""
+    try:
+        return path.is_file()
+    except OSError:
+        return False

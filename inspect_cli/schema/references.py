@@ -1,0 +1,82 @@
+"""What one part of a mission file says of another, or of files: names and paths that must lead
+somewhere. Checked on the nodes, so that they are reported together with the schema's errors.
+"""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from inspect_cli.errors import Problem
+from inspect_cli.schema.campaign import inside, is_file
+from inspect_cli.schema.explain import shown, suggest
+from inspect_cli.schema.nodes import Node, join, matches, replaced
+
+FILES = (
+    "structure.*.surface.cloud",
+    "structure.*.surface.mesh",
+    "truth.structure.*.specimen.potential_mv",
+    "truth.structure.*.specimen.resistivity_kohm_cm",
+)
+"""Where a mission names files; their paths are relative to the file that they stand in."""
+
+SURFACES = ("tasks.*.contact_grid.on", "tasks.*.contact_points.on")
+"""Where a mission names one of its surfaces."""
+
+
+def resolved_files(mission: Node, root: Path) -> tuple[Node, list[Problem]]:
+    """The mission with every path relative to the campaign, and what is wrong with them."""
+    problems: list[Problem] = []
+    for pattern in FILES:
+        for steps, node in matches(mission, pattern):
+            if not isinstance(node.value, str):
+                continue  # the schema refuses it
+            target = inside(root, Path(node.file).parent, node.value)
+            problem = file_problem(node, join(steps), target)
+            if problem or target is None:
+                problems += [problem] if problem else []
+                continue
+            mission = replaced(mission, steps, target.relative_to(root.resolve()).as_posix())
+    return mission, problems
+
+
+def file_problem(node: Node, path: str, target: Path | None) -> Problem | None:
+    """Why the file that ``node`` names cannot be used."""
+    if target is None:
+        return Problem(
+            f"leads out of the campaign folder: {shown(node.value)}",
+            node.at(path),
+            hint=f"copy it into the campaign; paths are relative to the folder of {node.file}",
+        )
+    if not is_file(target):
+        return Problem(
+            f"no such file: {shown(node.value)}",
+            node.at(path),
+            hint=f"paths are relative to the folder of {node.file}",
+        )
+    return None
+
+
+def dangling_surfaces(mission: Node) -> list[Problem]:
+    """Surfaces that are named and not there, or there twice."""
+    problems: list[Problem] = []
+    names: list[str] = []
+    for steps, node in matches(mission, "structure.*.name"):
+        if node.value in names:
+            problems.append(
+                Problem(f"a second surface '{shown(node.value)}'", node.at(join(steps)))
+            )
+        elif isinstance(node.value, str):
+            names.append(node.value)
+    if not names:
+        return problems  # the schema refuses the structure; the rest would only repeat it
+    for pattern in SURFACES:
+        for steps, node in matches(mission, pattern):
+            if isinstance(node.value, str) and node.value not in names:
+                what = f"no surface is named '{shown(node.value)}'"
+                problems.append(Problem(what, node.at(join(steps)), suggest(node.value, names)))
+    for steps, node in matches(mission, "truth.structure.*"):
+        name = str(steps[-1])
+        if name not in names:
+            what = f"the truth of a surface that is not there: '{shown(name)}'"
+            problems.append(Problem(what, node.key_at(join(steps)), suggest(name, names)))
+    return problems
