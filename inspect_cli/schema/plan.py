@@ -10,6 +10,7 @@ from inspect_cli.schema.base import Name, NonNegative, Positive, Strict, Triple
 from inspect_cli.schema.geometry import Shape
 
 Quaternion = tuple[float, float, float, float]
+LegKind = Literal["takeoff", "transit", "approach", "press", "retreat", "land"]
 
 
 class PostureModel(Strict):
@@ -74,11 +75,13 @@ class Target(Strict):
 class Leg(Strict):
     """A stretch of the flight. Postures are passed at rest, so each stretch can be cut short."""
 
-    kind: Literal["takeoff", "transit", "approach", "press", "retreat", "land"]
+    kind: LegKind
     target: int | None
     postures: Annotated[tuple[PostureModel, ...], Field(min_length=1)]
-    """Where it leads: way-points in order; the last is its end."""
+    """Where it leads: way-points in order; the last is its end. A press leads to the posture
+    with the tip ``press_m`` behind the surface, which the surface itself prevents."""
     speed_mps: Positive
+    """Peak speed of the smooth profile between way-points."""
     duration_s: Positive
     """As planned, with the time for the dwell."""
 
@@ -96,6 +99,17 @@ class Plan(Strict):
     duration_s: Positive
     energy_wh: Positive
     path_m: Positive
+    """Length of the body's planned path, presses behind the surface included."""
     cable_m: float
     """Longest straight distance from the start to a target that the cable has to span."""
     warnings: tuple[str, ...] = ()
+
+
+class PlanFile(Plan):
+    """``plan.json`` as ``inspect plan`` writes it: it remembers the mission it was made from."""
+
+    mission_file: str
+
+    def plan(self) -> Plan:
+        """The plan alone, as a log carries it."""
+        return Plan.model_construct(**{name: getattr(self, name) for name in Plan.model_fields})

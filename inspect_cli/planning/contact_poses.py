@@ -1,0 +1,97 @@
+"""How a vehicle stands before a point, touches it, and leans on it.
+
+The tool meets the surface head on, z_T = −z_C, and y_T is parallel to the ground, which for a
+rigid arm levels y_B (Bodie et al., "An omnidirectional aerial manipulation platform for
+contact-based inspection", RSS 2019, section IV-E). This leaves the sign of y_T free.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from inspect_cli.interfaces import Capabilities, Posture
+from inspect_cli.planning.points import ContactPoint
+from inspect_cli.spatial.rotations import cross, quaternion_to_matrix
+from inspect_cli.spatial.types import Matrix, Vector
+
+VERTICAL_COSINE = float(np.cos(np.radians(1.0)))
+"""A tool closer than this to the vertical has no level direction to follow and keeps its own."""
+TIE = 1e-9
+
+
+@dataclass(frozen=True)
+class Touch:
+    """The postures of one contact: before it, with the tip on the surface, and set behind it.
+
+    ``setpoint`` is what the vehicle is asked for while it presses; the surface holds it at
+    ``contact``.
+    """
+
+    R_WT: Matrix
+    standoff: Posture
+    contact: Posture
+    setpoint: Posture
+
+    @property
+    def upright(self) -> bool:
+        """Whether z_B points up at the contact."""
+        return bool(quaternion_to_matrix(self.contact.q_WB)[2, 2] > 0.0)
+
+
+def tool_attitudes(n_W: Vector, y_near_W: Vector) -> tuple[Matrix, Matrix]:
+    """The two R_WT (3, 3) with z_T = −n and level y_T; first the one nearer to ``y_near_W``.
+
+    y_T = ± unit(z_W × z_T). Where z_T is within 1° of the vertical, that direction is left to
+    the noise of n; there y_T is the level part of ``y_near_W``, made square to z_T, so that the
+    heading is kept.
+    """
+    z_T = -n_W
+    near = _level(y_near_W)
+    if abs(z_T[2]) > VERTICAL_COSINE:
+        y_T = near - (near @ z_T) * z_T
+    else:
+        y_T = np.array([-z_T[1], z_T[0], 0.0])
+        if y_T @ near < -TIE:
+            y_T = -y_T
+    y_T = y_T / np.linalg.norm(y_T)
+    x_T = cross(y_T, z_T)
+    return np.column_stack([x_T, y_T, z_T]), np.column_stack([-x_T, -y_T, z_T])
+
+
+def touches(capabilities: Capabilities, point: ContactPoint, previous: Posture) -> list[Touch]:
+    """The ways to touch a point, best first; empty when the point is out of reach.
+
+    A posture in which the vehicle stays upright, z_B · z_W > 0, comes before one that hangs;
+    of two alike, the one closer to the heading of the posture ``previous``.
+    """
+    y_near_W = capabilities.tool_pose(previous)[1][:, 1]
+    found = []
+    for R_WT in tool_attitudes(point.n_W, y_near_W):
+        touch = _touch(capabilities, point, R_WT, previous)
+        if touch is not None:
+            found.append(touch)
+    return sorted(found, key=lambda touch: not touch.upright)
+
+
+def _touch(
+    capabilities: Capabilities, point: ContactPoint, R_WT: Matrix, previous: Posture
+) -> Touch | None:
+    options = point.options
+    postures: list[Posture] = []
+    for distance_m in (options.standoff_m, 0.0, -options.press_m):
+        near = postures[-1] if postures else previous
+        posture = capabilities.posture_for_tool(point.in_front(distance_m), R_WT, near)
+        if posture is None:
+            return None
+        postures.append(posture)
+    return Touch(R_WT, *postures)
+
+
+def _level(y_W: Vector) -> Vector:
+    """The level part of a direction, of unit length; y_W where the direction is vertical."""
+    norm = float(np.hypot(y_W[0], y_W[1]))
+    if norm < TIE:
+        return np.array([0.0, 1.0, 0.0])
+    return np.array([y_W[0] / norm, y_W[1] / norm, 0.0])

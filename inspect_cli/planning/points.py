@@ -1,0 +1,104 @@
+"""From a task to the points on the believed surface that shall be touched."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Literal
+
+import numpy as np
+
+from inspect_cli.schema.base import Triple
+from inspect_cli.schema.mission import ContactGrid, ContactOptions, Task
+from inspect_cli.spatial.primitives import normal_at, point_at, project
+from inspect_cli.spatial.types import Structured, Vector
+
+EDGE_M = 1e-9
+"""Rounding that is forgiven at the edge of a patch."""
+
+
+@dataclass(frozen=True)
+class ContactPoint:
+    """A point to touch, on the surface as it is believed to be.
+
+    ``p_WC`` (3,) m and the outward normal ``n_W`` (3,) in W. ``fault`` says why the surface
+    cannot be touched there; empty when it can.
+    """
+
+    label: str
+    surface: str
+    uv_m: tuple[float, float]
+    p_WC: Vector
+    n_W: Vector
+    options: ContactOptions
+    sensor: Literal["half_cell"]
+    fault: str = ""
+
+    def in_front(self, distance_m: float) -> Vector:
+        """The point (3,) m in W at this distance from the surface; negative lies behind it."""
+        ahead: Vector = self.p_WC + distance_m * self.n_W
+        return ahead
+
+
+def points_of_task(task: Task, prim: Structured, first_number: int) -> list[ContactPoint]:
+    """The task's points in the order in which the mission gives them.
+
+    ``prim`` is the surface's PRIMITIVE array of length 1. Points are labelled with numbers
+    from ``first_number`` on. Points that cannot be touched are returned with their fault.
+    """
+    contact = task.contact
+    if isinstance(contact, ContactGrid):
+        places = [(u, v, "") for u, v in grid_uv(contact)]
+    else:
+        places = [_projected(prim, p_W, contact.tolerance_m) for p_W in contact.at_m]
+    return [
+        ContactPoint(
+            label=str(number),
+            surface=contact.on,
+            uv_m=(u, v),
+            p_WC=point_at(prim, 0, u, v),
+            n_W=normal_at(prim, 0, u, v),
+            options=contact,
+            sensor=task.sensor,
+            fault=fault or _outside(prim, u, v),
+        )
+        for number, (u, v, fault) in enumerate(places, first_number)
+    ]
+
+
+def grid_uv(grid: ContactGrid) -> list[tuple[float, float]]:
+    """(u, v) m of a grid's points, row by row from the top, each from the lowest u to the highest.
+
+    The grid's middle lies ``offset_m`` from the middle of the surface; row 0 has the largest v.
+    """
+    u_middle, v_middle = grid.offset_m
+    return [
+        (
+            u_middle + (column - 0.5 * (grid.columns - 1)) * grid.pitch_m,
+            v_middle - (row - 0.5 * (grid.rows - 1)) * grid.pitch_m,
+        )
+        for row in range(grid.rows)
+        for column in range(grid.columns)
+    ]
+
+
+def _projected(prim: Structured, p_W: Triple, tolerance_m: float) -> tuple[float, float, str]:
+    """(u, v) m of a given point's foot on the surface, and what is wrong with the point."""
+    u, v, height_m = (float(x) for x in project(prim, 0, np.array(p_W)))
+    if abs(height_m) <= tolerance_m:
+        return u, v, ""
+    place = ", ".join(f"{x:.3f}" for x in p_W)
+    fault = (
+        f"a point off the surface: ({place}) is {abs(height_m):.3f} m from it, "
+        f"tolerance_m is {tolerance_m:.3f}"
+    )
+    return u, v, fault
+
+
+def _outside(prim: Structured, u: float, v: float) -> str:
+    half_u, half_v = (float(x) for x in prim["half_size"][0])
+    if abs(u) <= half_u + EDGE_M and abs(v) <= half_v + EDGE_M:
+        return ""
+    return (
+        f"outside the patch: it lies at u {u:.3f} m, v {v:.3f} m, "
+        f"the patch ends at ±{half_u:.3f} m, ±{half_v:.3f} m"
+    )
