@@ -4,6 +4,7 @@ somewhere. Checked on the nodes, so that they are reported together with the sch
 
 from __future__ import annotations
 
+import os
 from pathlib import Path
 
 from inspect_cli.errors import Problem
@@ -24,7 +25,11 @@ SURFACES = ("tasks.*.contact_grid.on", "tasks.*.contact_points.on")
 
 
 def resolved_files(mission: Node, root: Path) -> tuple[Node, list[Problem]]:
-    """The mission with every path relative to the campaign, and what is wrong with them."""
+    """The mission with every path relative to its own folder, and what is wrong with them.
+
+    An inherited path stands in another file, perhaps of another folder; it is rewritten.
+    """
+    folder = Path(mission.file).resolve().parent
     problems: list[Problem] = []
     for pattern in FILES:
         for steps, node in matches(mission, pattern):
@@ -35,7 +40,7 @@ def resolved_files(mission: Node, root: Path) -> tuple[Node, list[Problem]]:
             if problem or target is None:
                 problems += [problem] if problem else []
                 continue
-            mission = replaced(mission, steps, target.relative_to(root.resolve()).as_posix())
+            mission = replaced(mission, steps, Path(os.path.relpath(target, folder)).as_posix())
     return mission, problems
 
 
