@@ -1,0 +1,14 @@
+"""What a log calls the things in it that are not records."""
+
+from __future__ import annotations
+
+MISSION, PLATFORM, PLAN = "mission.json", "platform.json", "plan.json"
+"""Attachments without which a log cannot be evaluated."""
+TRUTH = "truth.json"
+"""Attachment of simulated flights only."""
+RUN = "run.json"
+"""Attachment: ``{"seed": n, "versions": {name: version}}``."""
+OUTCOME = "outcome"
+"""Metadata record with ``status`` and ``reason``."""
+EVENTS = "/events"
+SCENE = "/scene"
