@@ -101,12 +101,16 @@ class FlightStack(Protocol):
     estimate: Estimate
     command: Command
 
+    def start(self, pose: Pose) -> None:
+        """Begin at rest at a measured pose."""
+        ...
+
     def on_imu(self, imu: Imu) -> None:
         """Propagate the estimate with an inertial sample."""
         ...
 
-    def on_pose(self, pose: Pose) -> None:
-        """Correct the estimate with a pose measurement."""
+    def on_pose(self, pose: Pose) -> bool:
+        """Correct the estimate with a pose measurement; False when it was refused."""
         ...
 
     def control(self, reference: Reference, flying: bool) -> None:

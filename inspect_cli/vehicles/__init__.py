@@ -1,1 +1,24 @@
-"""One module per kind of platform: nominal MuJoCo model, Capabilities, flight stack."""
+"""One module per kind of platform: nominal MuJoCo model, Capabilities, flight stack.
+
+A new kind is a platform model in ``PLATFORM_KINDS``, a module here, and one line below.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+from inspect_cli.errors import InputError
+from inspect_cli.schema.platform import PlatformBase
+from inspect_cli.vehicles.kinds import Vehicle
+from inspect_cli.vehicles.tilt_rotor import TiltRotor
+
+VEHICLES: dict[str, Callable[[Any, str], Vehicle]] = {"tilt_rotor": TiltRotor}
+
+
+def build_vehicle(platform: PlatformBase, profile: str) -> Vehicle:
+    """The vehicle of a platform file, flown with one of its impedance profiles."""
+    if platform.kind not in VEHICLES:
+        known = ", ".join(sorted(VEHICLES))
+        raise InputError(f"no vehicle of kind '{platform.kind}'", hint=f"kinds are: {known}")
+    return VEHICLES[platform.kind](platform, profile)

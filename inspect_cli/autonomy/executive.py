@@ -1,0 +1,284 @@
+"""The mission executive: walks the plan's legs, mode by mode, and aborts by the failsafe table.
+
+It decides where the vehicle shall go next and when a point is done; how to get there is
+Guidance's, how to hold it is the controller's, which never learns of modes. Each mode is a row
+of ``MODES``: what starts it and what ends it.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from typing import Literal, Protocol
+
+import numpy as np
+
+from inspect_cli.autonomy.failsafe import Action, FlightInputs, Watch
+from inspect_cli.interfaces import Posture
+from inspect_cli.records import (
+    Estimate,
+    InvalidReason,
+    Mode,
+    Probe,
+    Reading,
+    Reference,
+    SurfaceEstimate,
+)
+from inspect_cli.schema.plan import Leg, Plan, PostureModel, Target
+from inspect_cli.schema.result import Status
+from inspect_cli.spatial.types import Vector
+
+SETTLE_S = 1.0
+"""On the ground before take-off, for the filter to find its biases."""
+PAUSE_S = 0.2
+"""At rest at the end of each stretch before the next begins."""
+SAFE_HOVER_S = 3.0
+"""Hover after an abort before the run ends."""
+BEFORE_CONTACT_M = 0.01
+"""The approach ends this far from the surface; the press goes through it."""
+
+
+class Guidance(Protocol):
+    """What the executive hands its wishes to; see ``guidance.pursuit``."""
+
+    @property
+    def reference(self) -> Reference:
+        """The reference that is being written."""
+        ...
+
+    def go_to(self, t_s: float, postures: Sequence[Posture], speed_mps: float) -> None:
+        """Pass postures at rest, one after the other."""
+        ...
+
+    def approach(self, t_s: float, target: Target, depth_m: float, speed_mps: float) -> None:
+        """Aim the tool ``depth_m`` behind the target's surface (negative: in front of it)."""
+        ...
+
+    def observe(self, t_s: float, surface: SurfaceEstimate) -> None:
+        """Correct the aim by what the camera sees."""
+        ...
+
+    def hold(self, t_s: float) -> None:
+        """Stop smoothly."""
+        ...
+
+    def arrived(self, t_s: float) -> bool:
+        """Whether the reference has come to rest at its goal."""
+        ...
+
+
+class Judge(Protocol):
+    """Decides whether the probe's samples at a point make a reading; see ``sensing.reading``."""
+
+    def begin(self, target: int, t_s: float) -> None:
+        """A new point."""
+        ...
+
+    def feed(self, probe: Probe, p_WT: Vector) -> None:
+        """Another sample, with the believed position of the tip."""
+        ...
+
+    def done(self, t_s: float) -> bool:
+        """Whether the point is decided."""
+        ...
+
+    def finish(self, t_s: float) -> Reading:
+        """The verdict."""
+        ...
+
+
+@dataclass(frozen=True)
+class Event:
+    """Something worth a line in the log."""
+
+    t_s: float
+    level: Literal["info", "warning", "error"]
+    text: str
+
+
+class Executive:
+    """Walks one plan."""
+
+    def __init__(
+        self,
+        plan: Plan,
+        guidance: Guidance,
+        judge: Callable[[Target], Judge],
+        estimate: Estimate,
+        time_limit_s: float,
+    ) -> None:
+        self._plan = plan
+        self._guidance = guidance
+        self._new_judge = judge
+        self._judge: Judge | None = None
+        self._watch = Watch()
+        self._inputs = FlightInputs(0.0, estimate, guidance.reference)
+        self._time_limit_s = time_limit_s
+        self._leg = -1
+        self._since_s = 0.0
+        self._resting_since_s: float | None = None
+        self._waiting_for_surface = False
+        self._judged: set[int] = set()
+        self.mode = Mode.IDLE
+        self.target = -1
+        self.status: Status = "completed"
+        self.reason = ""
+        self.finished = False
+        self.readings: list[Reading] = []
+        """Verdicts that nobody has logged yet."""
+        self.events: list[Event] = []
+        """Events that nobody has logged yet."""
+
+    @property
+    def flying(self) -> bool:
+        """Whether the motors shall run."""
+        return self.mode not in (Mode.IDLE, Mode.LANDED)
+
+    @property
+    def watches_surface(self) -> bool:
+        """Whether surface estimates steer the vehicle now."""
+        near = (Mode.APPROACH, Mode.PRESS, Mode.RETREAT)
+        return self.mode in near and not self._waiting_for_surface
+
+    def heard_pose(self, t_s: float) -> None:
+        """A pose measurement was accepted."""
+        self._inputs.pose_heard_s = t_s
+
+    def saw_surface(self, surface: SurfaceEstimate) -> None:
+        """The depth camera produced an estimate; only a valid one counts."""
+        if surface.valid:
+            self._inputs.surface_seen_s = surface.t_s
+
+    def probe_sampled(self, probe: Probe, p_WT: Vector) -> None:
+        """The probe produced a sample."""
+        if self._judge is not None:
+            self._judge.feed(probe, p_WT)
+
+    def update(self, t_s: float) -> None:
+        """Decide what to do now; called at the mission rate."""
+        self._inputs.t_s = t_s
+        action, reason = self._watch.check(self.mode, self._inputs)
+        if self._overtime(t_s):
+            action, reason = Action.HOVER, "flight took far longer than planned"
+        if action != Action.CONTINUE:
+            self._abort(t_s, action, reason)
+        elif self._done(t_s):
+            self._advance(t_s)
+        self._mark_reference()
+
+    def give_up(self, status: Status, reason: str) -> None:
+        """End the run from outside: the physics diverged, or somebody interrupted it."""
+        self.status, self.reason, self.finished = status, reason, True
+
+    def _mark_reference(self) -> None:
+        self._guidance.reference.mode = float(self.mode)
+        self._guidance.reference.target = float(self.target)
+
+    def _overtime(self, t_s: float) -> bool:
+        return t_s > self._time_limit_s and self.mode not in (Mode.HOVER, Mode.LANDED)
+
+    def _done(self, t_s: float) -> bool:
+        """Whether the current mode has come to its end."""
+        if self.mode == Mode.IDLE:
+            return t_s - self._since_s >= SETTLE_S
+        if self.mode == Mode.HOVER:
+            return t_s - self._since_s >= SAFE_HOVER_S
+        if self.mode == Mode.LANDED:
+            return t_s - self._since_s >= PAUSE_S
+        if self.mode == Mode.PRESS:
+            return self._judge is not None and self._judge.done(t_s)
+        if self._waiting_for_surface:
+            self._begin_approach_when_seen(t_s)
+            return False
+        return self._rested(t_s)
+
+    def _rested(self, t_s: float) -> bool:
+        if not self._guidance.arrived(t_s):
+            self._resting_since_s = None
+            return False
+        if self._resting_since_s is None:
+            self._resting_since_s = t_s
+        return t_s - self._resting_since_s >= PAUSE_S
+
+    def _advance(self, t_s: float) -> None:
+        if self.mode in (Mode.HOVER, Mode.LANDED):
+            self.finished = True
+            return
+        if self.mode == Mode.PRESS:
+            self._take_reading(t_s)
+        if self._leg + 1 == len(self._plan.legs):
+            self._enter(t_s, Mode.LANDED, -1)
+            return
+        self._leg += 1
+        self._begin(t_s, self._plan.legs[self._leg])
+
+    def _begin(self, t_s: float, leg: Leg) -> None:
+        mode = Mode[leg.kind.upper()]
+        self._enter(t_s, mode, -1 if leg.target is None else leg.target)
+        if leg.target is None or mode == Mode.TRANSIT:
+            postures = [posture_of(model) for model in leg.postures]
+            self._guidance.go_to(t_s, postures, leg.speed_mps)
+            return
+        target = self._plan.targets[leg.target]
+        if mode == Mode.APPROACH:
+            self._waiting_for_surface = True
+            self._inputs.surface_seen_s = min(self._inputs.surface_seen_s, t_s)
+        elif mode == Mode.PRESS:
+            self._judge = self._new_judge(target)
+            self._judge.begin(target.index, t_s)
+            self._guidance.approach(t_s, target, target.press_m, leg.speed_mps)
+        else:
+            self._guidance.approach(t_s, target, -target.standoff_m, leg.speed_mps)
+
+    def _begin_approach_when_seen(self, t_s: float) -> None:
+        if self._inputs.surface_seen_s < self._since_s + PAUSE_S:
+            return
+        self._waiting_for_surface = False
+        leg = self._plan.legs[self._leg]
+        target = self._plan.targets[self.target]
+        self._guidance.approach(t_s, target, -BEFORE_CONTACT_M, leg.speed_mps)
+
+    def _enter(self, t_s: float, mode: Mode, target: int) -> None:
+        self.mode, self.target, self._since_s = mode, target, t_s
+        self._resting_since_s = None
+        self._waiting_for_surface = False
+        point = "" if target < 0 else f", point {self._plan.targets[target].label}"
+        self.events.append(Event(t_s, "info", f"{mode.name.lower()}{point}"))
+
+    def _take_reading(self, t_s: float) -> None:
+        assert self._judge is not None  # a press always has one
+        reading = self._judge.finish(t_s)
+        self._judge = None
+        self._judged.add(int(reading.target))
+        self.readings.append(reading)
+
+    def _abort(self, t_s: float, action: Action, reason: str) -> None:
+        self.status, self.reason = "aborted", reason
+        self.events.append(Event(t_s, "error", f"aborted: {reason}"))
+        near = self.mode in (Mode.APPROACH, Mode.PRESS, Mode.RETREAT)
+        if action == Action.RETREAT and near:
+            target = self._plan.targets[self.target]
+            speed = self._plan.legs[self._leg].speed_mps
+            self._guidance.approach(t_s, target, -target.standoff_m, speed)
+        else:
+            self._guidance.hold(t_s)
+        self._judge = None
+        for target in self._plan.targets:
+            if target.index not in self._judged:
+                self.readings.append(_no_reading(t_s, target))
+        self._enter(t_s, Mode.HOVER, -1)
+
+
+def posture_of(model: PostureModel) -> Posture:
+    """The posture that a plan spells out."""
+    return Posture(np.array(model.p_WB), np.array(model.q_WB), np.array(model.arm_angle_rad))
+
+
+def _no_reading(t_s: float, target: Target) -> Reading:
+    reading = Reading.create()
+    reading.t_s = t_s
+    reading.target = float(target.index)
+    reading.potential = reading.resistance = float("nan")
+    reading.p_WT[:] = target.p_WC
+    reading.reason = float(InvalidReason.ABORTED)
+    return reading

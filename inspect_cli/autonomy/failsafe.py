@@ -1,0 +1,120 @@
+"""When to give up: a table of conditions, each with the modes it watches and what follows.
+
+``Action`` is ordered by severity, so that several violations are settled by ``max``.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable
+from dataclasses import dataclass, field
+from enum import IntEnum
+
+import numpy as np
+
+from inspect_cli.records import Estimate, Mode, Reference
+from inspect_cli.spatial.rotations import (
+    quaternion_conjugate,
+    quaternion_log,
+    quaternion_multiply,
+)
+
+
+class Action(IntEnum):
+    """What a violated condition asks for, mildest first."""
+
+    CONTINUE = 0
+    RETREAT = 1
+    """Back off to the standoff, then hover; the mission is aborted."""
+    HOVER = 2
+    """Stop where you are and hover; the mission is aborted."""
+
+
+@dataclass
+class FlightInputs:
+    """What the conditions look at; measured or estimated, never true."""
+
+    t_s: float
+    estimate: Estimate
+    reference: Reference
+    pose_heard_s: float = 0.0
+    """When the last pose was accepted."""
+    surface_seen_s: float = 0.0
+    """When the last valid surface estimate came."""
+
+    @property
+    def position_error_m(self) -> float:
+        """Distance between estimate and reference."""
+        return float(np.linalg.norm(self.estimate.p_WB - self.reference.p_WB))
+
+    @property
+    def attitude_error_rad(self) -> float:
+        """Angle between estimate and reference."""
+        error = quaternion_multiply(quaternion_conjugate(self.reference.q_WB), self.estimate.q_WB)
+        return float(np.linalg.norm(quaternion_log(error)))
+
+
+FLYING = frozenset({Mode.TAKEOFF, Mode.TRANSIT, Mode.APPROACH, Mode.PRESS, Mode.RETREAT, Mode.LAND})
+NEAR_SURFACE = frozenset({Mode.APPROACH, Mode.PRESS})
+
+
+@dataclass(frozen=True)
+class Failsafe:
+    """One row: what is watched, in which modes, for how long it may be so, what follows."""
+
+    name: str
+    modes: frozenset[Mode]
+    violated: Callable[[FlightInputs], bool]
+    patience_s: float
+    action: Action
+
+
+FAILSAFES: tuple[Failsafe, ...] = (
+    Failsafe(
+        "pose measurements lost",
+        FLYING,
+        lambda i: i.t_s - i.pose_heard_s > 0.25,
+        0.0,
+        Action.HOVER,
+    ),
+    Failsafe(
+        "surface not seen by the depth camera",
+        NEAR_SURFACE,
+        lambda i: i.t_s - i.surface_seen_s > 0.5,
+        1.5,
+        Action.RETREAT,
+    ),
+    Failsafe(
+        "position error above 0.6 m",
+        FLYING,
+        lambda i: i.position_error_m > 0.6,
+        0.5,
+        Action.RETREAT,
+    ),
+    Failsafe(
+        "attitude error above 0.6 rad",
+        FLYING,
+        lambda i: i.attitude_error_rad > 0.6,
+        0.3,
+        Action.RETREAT,
+    ),
+)
+
+
+@dataclass
+class Watch:
+    """Keeps how long each condition has been violated."""
+
+    table: Iterable[Failsafe] = FAILSAFES
+    _since: dict[str, float] = field(default_factory=dict)
+
+    def check(self, mode: Mode, inputs: FlightInputs) -> tuple[Action, str]:
+        """The severest action that is due now, and the condition that asks for it."""
+        worst, reason = Action.CONTINUE, ""
+        for row in self.table:
+            if mode not in row.modes or not row.violated(inputs):
+                self._since.pop(row.name, None)
+                continue
+            since = self._since.setdefault(row.name, inputs.t_s)
+            if inputs.t_s - since >= row.patience_s and row.action > worst:
+                worst, reason = row.action, row.name
+        return worst, reason

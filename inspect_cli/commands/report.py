@@ -1,0 +1,55 @@
+"""``inspect report``: from a run or a log to metrics, readings and a page."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+from inspect_cli.commands.runs import LOG_NAME, write_model
+from inspect_cli.errors import InputError
+from inspect_cli.log.reader import read_log
+from inspect_cli.metrics.evaluate import evaluate
+from inspect_cli.reporting.report import write_report
+from inspect_cli.schema.result import Result
+
+
+@dataclass(frozen=True)
+class ReportOutcome:
+    """One reported run."""
+
+    result: Result
+    page: Path
+
+
+def report(runs: Sequence[Path], out: Path | None = None) -> tuple[ReportOutcome, ...]:
+    """Report each run folder or log; ``out`` takes one sub-folder per run if there are several.
+
+    Raises LogError when a file is no log of ours; then nothing is written for it.
+    """
+    return tuple(_report_one(run, _folder(run, out, len(runs))) for run in runs)
+
+
+def _report_one(run: Path, folder: Path) -> ReportOutcome:
+    log = read_log(log_of(run))
+    result = evaluate(log)
+    folder.mkdir(parents=True, exist_ok=True)
+    write_model(folder / "metrics.json", result)
+    return ReportOutcome(result, write_report(log, result, folder))
+
+
+def log_of(run: Path) -> Path:
+    """The log of a run folder, finished or cut; a file is its own."""
+    if not run.is_dir():
+        return run
+    for name in (LOG_NAME, f"{LOG_NAME}.part"):
+        if (run / name).exists():
+            return run / name
+    raise InputError(f"{run} holds no {LOG_NAME}", hint="fly it first: inspect fly MISSION")
+
+
+def _folder(run: Path, out: Path | None, count: int) -> Path:
+    own = run if run.is_dir() else run.parent
+    if out is None:
+        return own
+    return out if count == 1 else out / own.name

@@ -1,0 +1,39 @@
+"""Where a run's files lie: one folder, each file written whole or not at all.
+
+reports/<mission>/<platform>/plan.json                       a plan
+reports/<mission>/<platform>-seed<N>/                        a run
+    plan.json  flight.mcap  metrics.json  timing.json  readings.csv  report.html
+"""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+from pydantic import BaseModel
+
+from inspect_cli.files import write_whole
+
+LOG_NAME = "flight.mcap"
+
+
+def plan_folder(root: Path, mission: str, platform: str) -> Path:
+    """The folder of a plan in a campaign."""
+    return root / "reports" / mission / platform
+
+
+def run_folder(root: Path, mission: str, platform: str, seed: int) -> Path:
+    """The folder of a run in a campaign."""
+    return root / "reports" / mission / f"{platform}-seed{seed}"
+
+
+def write_model(path: Path, model: BaseModel) -> None:
+    """Write a file model as JSON, by its file names for things."""
+    path.parent.mkdir(parents=True, exist_ok=True)
+    write_whole(path, (model.model_dump_json(by_alias=True, indent=1) + "\n").encode())
+
+
+def write_json(path: Path, data: object) -> None:
+    """Write plain data as JSON."""
+    path.parent.mkdir(parents=True, exist_ok=True)
+    write_whole(path, (json.dumps(data, indent=1, sort_keys=True) + "\n").encode())

@@ -1,0 +1,185 @@
+"""The flight loop. Every tick reads top to bottom in the same order:
+
+observe → sample the due sensors → estimate → autonomy and guidance write the reference →
+control and allocation write the command → apply → record → step.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from pathlib import Path
+from time import perf_counter
+
+import numpy as np
+
+from inspect_cli.autonomy.executive import Executive, posture_of
+from inspect_cli.guidance.local_surface import LocalSurface
+from inspect_cli.guidance.pursuit import Pursuit
+from inspect_cli.log.writer import LogWriter
+from inspect_cli.records import State, SurfaceEstimate
+from inspect_cli.schema.plan import Plan, Target
+from inspect_cli.schema.result import Status
+from inspect_cli.schema.truth import TruthModel
+from inspect_cli.sensing.reading import ReadingJudge
+from inspect_cli.simulation.clock import Clock, Tick
+from inspect_cli.simulation.instruments import Instruments
+from inspect_cli.simulation.plant import Plant
+from inspect_cli.simulation.recorder import Recorder
+from inspect_cli.simulation.world import build_world
+from inspect_cli.spatial.rotations import rotate
+from inspect_cli.truth.contact import ContactTruth
+from inspect_cli.truth.disturbances import Disturbances
+from inspect_cli.truth.faults import Faults
+from inspect_cli.truth.geometry import true_structure
+from inspect_cli.truth.proximity import Proximity
+from inspect_cli.vehicles.kinds import Vehicle
+
+
+@dataclass(frozen=True)
+class Ending:
+    """How a flight ended, and what it took."""
+
+    status: Status
+    reason: str
+    flight_s: float
+    wall_s: float
+    log_wall_s: float
+
+
+class Flight:
+    """One flight: the true world, the vehicle's stack, the executive, the log."""
+
+    def __init__(
+        self,
+        vehicle: Vehicle,
+        plan: Plan,
+        truth: TruthModel,
+        campaign: Path,
+        seed: int,
+        log: LogWriter,
+    ) -> None:
+        platform, lengths = vehicle.platform, vehicle.capabilities.lengths
+        rates = platform.rates
+        structure = true_structure(truth, plan.surfaces, campaign)
+        model = build_world(vehicle, truth.platform, structure)
+        proximity = Proximity(
+            truth.proximity,
+            structure.primitives,
+            vehicle.actuators.rotor_radius_m,
+            lengths["n_rotors"],
+        )
+        disturbances = Disturbances(truth.disturbances)
+        self.plant = Plant(model, vehicle, lengths, disturbances, proximity, rates.control_hz)
+        self.plan = plan
+        self.contact = ContactTruth(structure)
+        self.instruments = Instruments(
+            platform, vehicle.tip.R_BT, structure.primitives, Faults(truth.faults), seed
+        )
+        self.stack = vehicle.flight_stack()
+        self.guidance = Pursuit(vehicle.capabilities, posture_of(plan.start))
+        self.surface = SurfaceEstimate.create()
+        tof = platform.sensors.tof
+        self._p_BD, self._R_BT = np.array(tof.position_B_m), vehicle.tip.R_BT
+        self._local_surface = LocalSurface(tof, vehicle.tip.p_BT, vehicle.tip.R_BT)
+        self._p_BT = vehicle.tip.p_BT
+
+        def judge(target: Target) -> ReadingJudge:
+            return ReadingJudge(platform.sensors.half_cell, target.dwell_s)
+
+        limit_s = 60.0 + 2.0 * plan.duration_s
+        self.executive = Executive(plan, self.guidance, judge, self.stack.estimate, limit_s)
+        self.recorder = Recorder(log)
+        self.clock = Clock(
+            rates.physics_hz,
+            {
+                "imu": rates.imu_hz,
+                "pose": rates.pose_hz,
+                "tof": rates.tof_hz,
+                "probe": rates.probe_hz,
+                "mission": rates.mission_hz,
+                "guidance": rates.guidance_hz,
+                "control": rates.control_hz,
+                "log": rates.log_hz,
+            },
+        )
+        self._limit_s = limit_s + 60.0
+
+    def run(self, progress: Callable[[float], None] | None = None) -> Ending:
+        """Fly to the end; ``progress`` is called with the time of flight ten times a second."""
+        begun = perf_counter()
+        self.plant.place(posture_of(self.plan.start))
+        self.instruments.sample_pose(self.plant.state)
+        self.stack.start(self.instruments.pose.measurement)
+        t_s = 0.0
+        for tick in self.clock.ticks(self._limit_s):
+            t_s = tick.t_s
+            self._tick(tick)
+            if progress is not None and "tof" in tick.due:
+                progress(t_s)
+            if self.executive.finished:
+                break
+            self.plant.step(tick.steps_to_next)
+        self.recorder.decisions(self.executive)
+        wall_s = perf_counter() - begun
+        status, reason = self.executive.status, self.executive.reason
+        return Ending(status, reason, t_s, wall_s, self.recorder.wall_s)
+
+    def _tick(self, tick: Tick) -> None:
+        due, plant, stack = tick.due, self.plant, self.stack
+        state = plant.observe(tick.t_s)
+        if "imu" in due and self.instruments.sample_imu(state):
+            stack.on_imu(self.instruments.imu.measurement)
+        if "pose" in due:
+            self._correct_estimate(state)
+        if "tof" in due and self.instruments.sample_tof(state):
+            self._see_surface(tick.t_s)
+        if "probe" in due:
+            self._sample_probe()
+        if "guidance" in due and self.executive.watches_surface:
+            self.guidance.observe(tick.t_s, self.surface)
+        if "mission" in due:
+            self._decide(tick.t_s)
+        if "control" in due:
+            self.guidance.write(tick.t_s)
+            stack.control(self.guidance.reference, self.executive.flying)
+            plant.disturb(tick.t_s)
+            plant.apply(stack.command)
+        if "log" in due:
+            contact = self.contact.update(state)
+            self.recorder.rows(
+                tick.t_s, state, contact, self.guidance.reference, stack, self.instruments
+            )
+
+    def _correct_estimate(self, state: State) -> None:
+        heard = self.instruments.sample_pose(state)
+        if heard and self.stack.on_pose(self.instruments.pose.measurement):
+            self.executive.heard_pose(state.t_s)
+
+    def _see_surface(self, t_s: float) -> None:
+        """Turn the depth image into a surface estimate."""
+        estimate, points_D = self.stack.estimate, self.instruments.tof.points_D
+        self._local_surface.update(points_D, estimate, self.surface)
+        self.surface.t_s = t_s
+        self.executive.saw_surface(self.surface)
+        p_WD = estimate.p_WB + rotate(estimate.q_WB, self._p_BD)
+        self.recorder.surface(self.surface, points_D, p_WD, estimate.q_WB, self._R_BT)
+
+    def _sample_probe(self) -> None:
+        contact = self.contact.update(self.plant.state)
+        probe = self.instruments.sample_probe(self.plant.state, contact)
+        if probe is None:
+            return
+        estimate = self.stack.estimate
+        self.executive.probe_sampled(probe, estimate.p_WB + rotate(estimate.q_WB, self._p_BT))
+        self.recorder.row(probe)
+
+    def _decide(self, t_s: float) -> None:
+        """The mission rate: surroundings, divergence, executive."""
+        self.plant.feel_surroundings()
+        diverged = self.plant.diverged
+        if diverged:
+            self.executive.give_up("diverged", f"MuJoCo warned: {diverged}")
+            return
+        self.executive.update(t_s)
+        self.recorder.decisions(self.executive)

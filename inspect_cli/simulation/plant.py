@@ -1,0 +1,188 @@
+"""The plant: the one place that calls ``mj_step``.
+
+Between two ticks the commands are held, as a flight controller holds them. The plant turns a
+Command into MuJoCo's controls (rate limit of the joints, rising or falling lag of the rotors,
+thrust factors of near surfaces), applies the disturbances, steps, and reads the true State.
+"""
+
+from __future__ import annotations
+
+import mujoco
+import numpy as np
+
+from inspect_cli.compiled import kernel
+from inspect_cli.interfaces import Posture
+from inspect_cli.records import Command, Lengths, State
+from inspect_cli.spatial.rotations import rotate_back
+from inspect_cli.spatial.types import Matrix, Structured, Vector
+from inspect_cli.truth.disturbances import Disturbances
+from inspect_cli.truth.proximity import Proximity
+from inspect_cli.vehicles.kinds import Vehicle
+
+
+@kernel
+def set_controls(
+    thrust: Vector,
+    angle: Vector,
+    activation: Vector,
+    time_up: Vector,
+    time_down: Vector,
+    max_turn: Vector,
+    ctrl: Vector,
+    dynprm: Matrix,
+) -> None:
+    """Write thrusts and rate-limited joint angles into ``ctrl``, and each rotor's lag.
+
+    With the command held, a first-order lag never crosses its target, so choosing the time
+    constant by the sign of (command − activation) once per command is exact.
+    """
+    n = thrust.shape[0]
+    for i in range(n):
+        ctrl[i] = thrust[i]
+        dynprm[i, 0] = time_up[i] if thrust[i] > activation[i] else time_down[i]
+    for j in range(angle.shape[0]):
+        turn = angle[j] - ctrl[n + j]
+        ctrl[n + j] += min(max(turn, -max_turn[j]), max_turn[j])
+
+
+@kernel
+def read_state(
+    qpos: Vector,
+    qvel: Vector,
+    qacc: Vector,
+    constraint: Vector,
+    applied: Vector,
+    contact: Vector,
+    tip_W: Vector,
+    tip_axes: Vector,
+    activation: Vector,
+    state: Structured,
+) -> None:
+    """Write everything but the time into a State (1,).
+
+    MuJoCo's free joint keeps linear velocity in W and angular velocity in B, and its generalized
+    forces likewise: force in W, torque about O_b in B. Forces and accelerations are those of the
+    step that ended here. ``contact`` (6,) holds the forces that tool and shell exert, in W.
+    """
+    row = state[0]
+    q = qpos[3:7]
+    sign = -1.0 if q[0] < 0.0 else 1.0
+    for k in range(4):
+        row.q_WB[k] = sign * q[k]
+    force_W = np.empty(3)
+    for k in range(3):
+        row.p_WB[k] = qpos[k]
+        row.v_WB_W[k] = qvel[k]
+        row.w_WB_B[k] = qvel[3 + k]
+        row.a_WB_W[k] = qacc[k]
+        row.alpha_WB_B[k] = qacc[3 + k]
+        row.p_WT[k] = tip_W[k]
+        row.f_tool_W[k] = -contact[k]
+        row.wrench_ext_B[3 + k] = constraint[3 + k] + applied[3 + k]
+        force_W[k] = constraint[k] + applied[k]
+    row.wrench_ext_B[:3] = rotate_back(q, force_W)
+    # z_T is the third column of R_WT; what presses along it is pushed back against it.
+    row.f_normal = tip_axes[2] * contact[0] + tip_axes[5] * contact[1] + tip_axes[8] * contact[2]
+    row.f_body = np.sqrt(contact[3] ** 2 + contact[4] ** 2 + contact[5] ** 2)
+    n_joints = row.joint_angle.shape[0]
+    for j in range(n_joints):
+        row.joint_angle[j] = qpos[7 + j]
+        row.joint_rate[j] = qvel[6 + j]
+    for i in range(row.rotor_thrust.shape[0]):
+        row.rotor_thrust[i] = activation[i]
+
+
+class Plant:
+    """The true vehicle in the true world."""
+
+    def __init__(
+        self,
+        model: mujoco.MjModel,
+        vehicle: Vehicle,
+        lengths: Lengths,
+        disturbances: Disturbances,
+        proximity: Proximity,
+        control_hz: int,
+    ) -> None:
+        self.model = model
+        self.data = mujoco.MjData(model)
+        self.state = State.create(lengths)
+        self._n_rotors = lengths["n_rotors"]
+        self._actuators = vehicle.actuators
+        self._max_turn = vehicle.actuators.joint_rate_radps / control_hz
+        self._disturbances = disturbances
+        self._proximity = proximity
+        self._hubs = [model.actuator_trnid[i, 0] for i in range(self._n_rotors)]
+        self._tip = model.site("tool_tip").id
+        # The arrays below are views into MuJoCo's memory; they are looked up once.
+        data = self.data
+        self._tip_W, self._tip_axes = data.site_xpos[self._tip], data.site_xmat[self._tip]
+        self._sources = (data.qpos, data.qvel, data.qacc, data.qfrc_constraint)
+        self._applied, self._activation = data.qfrc_applied, data.act
+        self._contact = data.sensordata
+        self._ctrl, self._dynprm = data.ctrl, model.actuator_dynprm
+
+    def place(self, posture: Posture) -> None:
+        """Put the vehicle somewhere at rest."""
+        mujoco.mj_resetData(self.model, self.data)
+        self.data.qpos[:3] = posture.p_WB
+        self.data.qpos[3:7] = posture.q_WB
+        mujoco.mj_forward(self.model, self.data)
+        self.observe(0.0)
+
+    def observe(self, t_s: float) -> State:
+        """The true state now; kinematics are refreshed so that the tip does not lag a step."""
+        mujoco.mj_kinematics(self.model, self.data)
+        read_state(
+            *self._sources,
+            self._applied,
+            self._contact,
+            self._tip_W,
+            self._tip_axes,
+            self._activation,
+            self.state.array,
+        )
+        self.state.t_s = t_s
+        return self.state
+
+    def apply(self, command: Command) -> None:
+        """Take a command."""
+        set_controls(
+            command.views["rotor_thrust"],
+            command.views["joint_angle"],
+            self._activation,
+            self._actuators.time_up_s,
+            self._actuators.time_down_s,
+            self._max_turn,
+            self._ctrl,
+            self._dynprm,
+        )
+
+    def disturb(self, t_s: float) -> None:
+        """Set the disturbances of this moment."""
+        if self._disturbances.any:
+            force = self._disturbances.generalized_force(t_s, self.data.qpos[3:7])
+            self._applied[:6] = force
+
+    def feel_surroundings(self) -> None:
+        """Set the thrust factors of this moment."""
+        if not self._proximity.any:
+            return
+        hubs = self.data.site_xpos[self._hubs]
+        axes = self.data.site_xmat[self._hubs][:, [2, 5, 8]]
+        factors = self._proximity.update(hubs, np.ascontiguousarray(axes))
+        self.model.actuator_gainprm[: self._n_rotors, 0] = factors
+
+    def step(self, steps: int) -> None:
+        """Let time pass."""
+        mujoco.mj_step(self.model, self.data, steps)
+
+    @property
+    def diverged(self) -> str:
+        """Why the physics cannot be trusted any more; empty while it can."""
+        warned = [
+            mujoco.mjtWarning(index).name
+            for index, warning in enumerate(self.data.warning)
+            if warning.number
+        ]
+        return ", ".join(warned)

@@ -1,0 +1,118 @@
+"""Wall, ceiling and ground effect on rotors: a factor on each group's thrust at constant command.
+
+Stated model, for a rotor of radius R at distance d from a surface (all three multiply):
+
+ceiling   T/T∞ = γ^(2/3), γ = ½ + ½ √(1 + R²/(8 d²)): momentum theory at constant power
+          (Hsiao & Chirarattananon, "Ceiling effects for hybrid aerial-surface locomotion",
+          arXiv 1905.04632, gives P = T^1.5/(γ √(2 ρ A))). The paper's gain at constant rotor
+          speed needs blade-element theory; constant power is chosen. d ≥ 0.1 R is clamped,
+          where the momentum theory diverges.
+ground    T/T∞ = 1/(1 − (R/4z)²), Cheeseman & Bennett (ARC R&M 3021, 1955); z ≥ R/2 is clamped.
+wall      T/T∞ = 1 − 0.03 e^(−d/R), chosen: a few per cent of loss that fades within a rotor's
+          radius, the size that near-wall hover tests report.
+
+Distances are measured from the group's middle: along the thrust for the ceiling, against it for
+the ground, and to the nearest surface for the wall.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from inspect_cli.compiled import kernel
+from inspect_cli.schema.truth import ProximityEffects
+from inspect_cli.spatial.primitives import patch_distance, plane, raycast
+from inspect_cli.spatial.types import Points, Structured, Vector
+
+REACH_M = 2.0
+"""Beyond this a surface has no effect worth computing."""
+CEILING_CLAMP = 0.1
+GROUND_CLAMP = 0.5
+WALL_LOSS = 0.03
+
+
+@kernel
+def ceiling_factor(distance_m: float, radius_m: float) -> float:
+    """T/T∞ under a ceiling at constant power."""
+    d = max(distance_m, CEILING_CLAMP * radius_m)
+    gamma = 0.5 + 0.5 * np.sqrt(1.0 + radius_m * radius_m / (8.0 * d * d))
+    return float(gamma ** (2.0 / 3.0))
+
+
+@kernel
+def ground_factor(height_m: float, radius_m: float) -> float:
+    """T/T∞ above the ground."""
+    z = max(height_m, GROUND_CLAMP * radius_m)
+    return float(1.0 / (1.0 - (radius_m / (4.0 * z)) ** 2))
+
+
+@kernel
+def wall_factor(distance_m: float, radius_m: float) -> float:
+    """T/T∞ beside a wall."""
+    return float(1.0 - WALL_LOSS * np.exp(-max(distance_m, 0.0) / radius_m))
+
+
+@kernel
+def thrust_factors(
+    surfaces: Structured,
+    hubs_W: Points,
+    axes_W: Points,
+    radius_m: float,
+    ground: bool,
+    ceiling: bool,
+    wall: bool,
+    factors: Vector,
+) -> None:
+    """Write a factor per hub; hubs and thrust directions are (n, 3) in W."""
+    directions = np.empty((2, 3))
+    ranges = np.empty(2)
+    for i in range(hubs_W.shape[0]):
+        for k in range(3):
+            directions[0, k] = axes_W[i, k]
+            directions[1, k] = -axes_W[i, k]
+        raycast(surfaces, hubs_W[i], directions, REACH_M, ranges)
+        factor = 1.0
+        if ceiling and not np.isnan(ranges[0]):
+            factor *= ceiling_factor(ranges[0], radius_m)
+        if ground and not np.isnan(ranges[1]):
+            factor *= ground_factor(ranges[1], radius_m)
+        if wall:
+            nearest = REACH_M
+            for j in range(1, surfaces.shape[0]):  # the ground itself is no wall
+                nearest = min(nearest, abs(patch_distance(surfaces, j, hubs_W[i])))
+            if nearest < REACH_M:
+                factor *= wall_factor(nearest, radius_m)
+        factors[i] = factor
+
+
+class Proximity:
+    """The effect of the true surfaces and the ground on a vehicle's rotors."""
+
+    def __init__(
+        self, effects: ProximityEffects, primitives: Structured, radius_m: float, n_hubs: int
+    ) -> None:
+        ground = plane(np.zeros(3), np.array([0.0, 0.0, 1.0]), (200.0, 200.0))
+        self._surfaces = np.concatenate([ground, primitives])
+        self._effects = effects
+        self._radius_m = radius_m
+        self.factors = np.ones(n_hubs)
+
+    @property
+    def any(self) -> bool:
+        """Whether any effect is switched on."""
+        return self._effects.ground or self._effects.ceiling or self._effects.wall
+
+    def update(self, hubs_W: Points, axes_W: Points) -> Vector:
+        """The factor of each hub."""
+        effects = self._effects
+        thrust_factors(
+            self._surfaces,
+            hubs_W,
+            axes_W,
+            self._radius_m,
+            effects.ground,
+            effects.ceiling,
+            effects.wall,
+            self.factors,
+        )
+        return self.factors

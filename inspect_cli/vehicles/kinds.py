@@ -1,0 +1,74 @@
+"""What the simulator and the commands ask of a kind of vehicle.
+
+Contract of ``nominal_spec``: the first body is named ``core`` and has a free joint; fixed to it
+are the bodies ``shell`` (what must never touch), ``gear`` (what stands on the ground) and
+``tool`` with the geom ``tip`` and the site ``tool_tip``. Actuators come in this order: one per
+rotor (control: free-air thrust, N; first-order lag), one per joint (control: angle, rad).
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Protocol
+
+import mujoco
+
+from inspect_cli.interfaces import Capabilities, FlightStack
+from inspect_cli.schema.platform import PlatformBase
+from inspect_cli.spatial.types import Matrix, Vector
+
+
+@dataclass(frozen=True)
+class Actuators:
+    """Timing and geometry of the actuators that the plant moves."""
+
+    time_up_s: Vector
+    """Lag (n_rotors,) of rising thrust."""
+    time_down_s: Vector
+    """Lag (n_rotors,) of falling thrust."""
+    joint_rate_radps: Vector
+    """Fastest motion (n_joints,) of the joints' set-points."""
+    rotor_radius_m: float
+
+
+@dataclass(frozen=True)
+class Tip:
+    """The tool's end: stiffness of its contact, and where it sits in B at rest."""
+
+    radius_m: float
+    stiffness_npm: float
+    damping_ratio: float
+    p_BT: Vector
+    R_BT: Matrix
+
+
+class Vehicle(Protocol):
+    """One vehicle, built from its platform file and the impedance profile it flies with."""
+
+    @property
+    def platform(self) -> PlatformBase:
+        """The numbers it was built from."""
+        ...
+
+    @property
+    def capabilities(self) -> Capabilities:
+        """What planning and guidance may know."""
+        ...
+
+    @property
+    def actuators(self) -> Actuators:
+        """What the plant needs beyond the nominal model."""
+        ...
+
+    @property
+    def tip(self) -> Tip:
+        """The tool's end."""
+        ...
+
+    def nominal_spec(self) -> mujoco.MjSpec:
+        """The nominal MuJoCo model, in free space."""
+        ...
+
+    def flight_stack(self) -> FlightStack:
+        """A fresh stack of estimation and control."""
+        ...

@@ -1,0 +1,85 @@
+"""The flight stack that every fully actuated vehicle of ours shares; allocation is its own.
+
+IMU ─▶ error-state filter ◀─ pose        (estimate)
+          │
+          ▼
+momentum observer ─▶ selective impedance ─▶ allocation ─▶ command
+"""
+
+from __future__ import annotations
+
+from typing import Protocol
+
+import numpy as np
+
+from inspect_cli.control.impedance import ImpedanceController, RigidBody
+from inspect_cli.estimation.error_state import ErrorStateFilter
+from inspect_cli.estimation.wrench_observer import WrenchObserver
+from inspect_cli.records import Command, Estimate, Imu, Lengths, Pose, Reference
+from inspect_cli.schema.platform import ImpedanceProfile, PlatformBase
+from inspect_cli.spatial.types import Matrix, Vector
+
+
+class Allocation(Protocol):
+    """Turns the command's wrench into actuator set-points."""
+
+    def update(self, weight_B: Vector, command: Command) -> None:
+        """Write thrusts, joint angles, the granted wrench and whether it saturated."""
+        ...
+
+
+class ImpedanceStack:
+    """Filter, observer, impedance law and allocation of one vehicle."""
+
+    def __init__(
+        self,
+        platform: PlatformBase,
+        lengths: Lengths,
+        body: RigidBody,
+        profile: ImpedanceProfile,
+        R_BT: Matrix,
+        allocation: Allocation,
+    ) -> None:
+        rates, control = platform.rates, platform.control
+        self.estimate = Estimate.create()
+        self.command = Command.create(lengths)
+        self._filter = ErrorStateFilter(platform.sensors.imu, platform.sensors.pose, rates.imu_hz)
+        self._observer = WrenchObserver(
+            body.mass_kg,
+            body.inertia_B,
+            body.com_B,
+            np.array(control.observer_gain + control.observer_gain_torque),
+            1.0 / rates.control_hz,
+        )
+        self._impedance = ImpedanceController(body, control, profile, R_BT)
+        self._allocation = allocation
+        self._flying = False
+
+    def start(self, pose: Pose) -> None:
+        """Begin at rest at a measured pose."""
+        self._filter.start(pose, self.estimate)
+
+    def on_imu(self, imu: Imu) -> None:
+        """Propagate the estimate with an inertial sample."""
+        self._filter.propagate(imu, self.estimate)
+
+    def on_pose(self, pose: Pose) -> bool:
+        """Correct the estimate with a pose measurement; False when it was refused."""
+        return self._filter.correct(pose, self.estimate)
+
+    def control(self, reference: Reference, flying: bool) -> None:
+        """Write the command; idle motors, and an observer at rest, when not ``flying``."""
+        if not flying:
+            self._idle()
+            return
+        if not self._flying:
+            self._observer.reset(self.estimate)
+            self._flying = True
+        self._observer.update(self.estimate, self.command.allocated_B)
+        self._impedance.update(self.estimate, reference, self.command)
+        self._allocation.update(self._impedance.weight_B, self.command)
+
+    def _idle(self) -> None:
+        self._flying = False
+        for name in ("wrench_B", "allocated_B", "rotor_thrust", "saturated"):
+            self.command.views[name][...] = 0.0

@@ -1,0 +1,61 @@
+"""The tilt-rotor platform of paper A: n tilting groups of two coaxial rotors and a rigid arm."""
+
+from __future__ import annotations
+
+import mujoco
+import numpy as np
+
+from inspect_cli.control.tilt_allocation import TiltAllocation
+from inspect_cli.interfaces import FlightStack
+from inspect_cli.schema.platform import TiltRotorPlatform
+from inspect_cli.vehicles.kinds import Actuators, Tip
+from inspect_cli.vehicles.rigid_body import nominal_body
+from inspect_cli.vehicles.stack import ImpedanceStack
+from inspect_cli.vehicles.tilt_rotor.capabilities import TiltRotorCapabilities
+from inspect_cli.vehicles.tilt_rotor.model import build_spec, group_kappa_m, tool_transform
+
+
+class TiltRotor:
+    """A tilt-rotor vehicle, built from its platform file."""
+
+    def __init__(self, platform: TiltRotorPlatform, profile: str) -> None:
+        self.platform = platform
+        self._profile = platform.control.profiles[profile]
+        n = len(platform.groups)
+        rotor, unit, tool = platform.rotor, platform.unit, platform.tool
+        self.actuators = Actuators(
+            time_up_s=np.full(2 * n, rotor.time_up_s),
+            time_down_s=np.full(2 * n, rotor.time_down_s),
+            joint_rate_radps=np.full(n, unit.servo_rate_radps),
+            rotor_radius_m=rotor.radius_m,
+        )
+        p_BT, R_BT = tool_transform(platform)
+        self.tip = Tip(
+            tool.tip_radius_m, tool.tip_stiffness_npm, tool.tip_damping_ratio, p_BT, R_BT
+        )
+        self._body = nominal_body(build_spec(platform))
+        self.capabilities = TiltRotorCapabilities(
+            platform, self._profile, self._body, self._allocation()
+        )
+
+    def nominal_spec(self) -> mujoco.MjSpec:
+        """The nominal MuJoCo model, in free space."""
+        return build_spec(self.platform)
+
+    def flight_stack(self) -> FlightStack:
+        """Error-state filter, momentum observer, selective impedance, static allocation."""
+        return ImpedanceStack(
+            self.platform,
+            self.capabilities.lengths,
+            self._body,
+            self._profile,
+            self.tip.R_BT,
+            self._allocation(),
+        )
+
+    def _allocation(self) -> TiltAllocation:
+        azimuth = np.radians([group.azimuth_deg for group in self.platform.groups])
+        unit = self.platform.unit
+        return TiltAllocation(
+            azimuth, unit.distance_m, group_kappa_m(self.platform), unit.max_thrust_n
+        )

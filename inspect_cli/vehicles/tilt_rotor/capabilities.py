@@ -1,0 +1,112 @@
+"""What planning and guidance may know of a tilt-rotor vehicle with a rigid arm."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from inspect_cli.control.impedance import GRAVITY_MPS2, RigidBody, steady_contact_force
+from inspect_cli.control.tilt_allocation import TiltAllocation
+from inspect_cli.interfaces import Margins, Posture
+from inspect_cli.records import Lengths
+from inspect_cli.schema.platform import ImpedanceProfile, TiltRotorPlatform
+from inspect_cli.spatial.rotations import matrix_to_quaternion, quaternion_to_matrix
+from inspect_cli.spatial.types import Matrix, Points, Vector
+from inspect_cli.vehicles.tilt_rotor.model import tool_transform
+
+AIR_DENSITY_KGPM3 = 1.225
+ARM_SPHERE_M = 0.03
+BARE_TIP_SHARE = 0.35
+"""The last part of the tool that may come close to what it touches."""
+
+
+class TiltRotorCapabilities:
+    """Kinematics and margins of a rigid tilt-rotor vehicle, from its nominal numbers."""
+
+    def __init__(
+        self,
+        platform: TiltRotorPlatform,
+        profile: ImpedanceProfile,
+        body: RigidBody,
+        allocation: TiltAllocation,
+    ) -> None:
+        self._platform = platform
+        self._profile = profile
+        self._body = body
+        self._allocation = allocation
+        self._p_BT, self._R_BT = tool_transform(platform)
+        self._spheres_B = _collision_spheres_B(platform)
+        n = len(platform.groups)
+        self.lengths: Lengths = {"n_rotors": 2 * n, "n_joints": n}
+        self.max_speed_mps = platform.limits.speed_mps
+        self.max_acceleration_mps2 = platform.limits.acceleration_mps2
+        self.max_angular_rate_radps = platform.limits.angular_rate_radps
+        self.standing_height_m = platform.core.gear_height_m
+
+    def tool_pose(self, posture: Posture) -> tuple[Vector, Matrix]:
+        """(p_WT, R_WT) of a posture."""
+        R_WB = quaternion_to_matrix(posture.q_WB)
+        return posture.p_WB + R_WB @ self._p_BT, R_WB @ self._R_BT
+
+    def posture_for_tool(self, p_WT: Vector, R_WT: Matrix, near: Posture) -> Posture | None:
+        """The one posture of a rigid vehicle that puts its tool there; omnidirectional."""
+        R_WB = R_WT @ self._R_BT.T
+        return Posture(p_WT - R_WB @ self._p_BT, matrix_to_quaternion(R_WB))
+
+    def collision_spheres(self, posture: Posture) -> Points:
+        """Spheres (n, 4) = (p_W, radius) that cover the vehicle but the tool's last part."""
+        spheres = self._spheres_B.copy()
+        R_WB = quaternion_to_matrix(posture.q_WB)
+        spheres[:, :3] = posture.p_WB + spheres[:, :3] @ R_WB.T
+        return spheres
+
+    def margins(self, posture: Posture, wrench_tool_W: Vector) -> Margins:
+        """Thrust left in the busiest group, and tilt left, with a wrench (6,) on the tip in W."""
+        R_WB = quaternion_to_matrix(posture.q_WB)
+        force_B = R_WB.T @ wrench_tool_W[:3]
+        torque_B = R_WB.T @ wrench_tool_W[3:] + np.cross(self._p_BT, force_B)
+        up_B = self._body.mass_kg * GRAVITY_MPS2 * R_WB[2]
+        needed = np.concatenate([up_B - force_B, np.cross(self._body.com_B, up_B) - torque_B])
+        unit = self._platform.unit
+        thrust = unit.max_thrust_n - float(self._allocation.group_thrusts(needed).max())
+        if unit.range_deg is None:
+            return Margins(thrust, float("inf"))
+        tilt = float(np.abs(self._allocation.group_tilts(needed)).max())
+        return Margins(thrust, float(np.radians(unit.range_deg)) - tilt)
+
+    def press_force(self, press_m: float) -> float:
+        """Steady normal force, N, with the set-point ``press_m`` behind the surface."""
+        stiffness = np.array(self._platform.control.stiffness_npm)
+        z_T = self._R_BT[:, 2]
+        force = steady_contact_force(self._profile, stiffness, self._R_BT, -press_m * z_T)
+        return float(-force @ z_T)
+
+    def hover_power_w(self, posture: Posture) -> float:
+        """Electrical power at rest: ideal induced power over figure of merit, plus avionics.
+
+        P = Σ T^1.5 / √(2 ρ A) / FM + avionics, one actuator disc per rotor (Leishman,
+        Principles of Helicopter Aerodynamics, §2.2).
+        """
+        R_WB = quaternion_to_matrix(posture.q_WB)
+        up_B = self._body.mass_kg * GRAVITY_MPS2 * R_WB[2]
+        wrench = np.concatenate([up_B, np.cross(self._body.com_B, up_B)])
+        thrust = 0.5 * self._allocation.group_thrusts(wrench)
+        area = np.pi * self._platform.rotor.radius_m**2
+        induced = 2.0 * float(np.sum(thrust**1.5)) / np.sqrt(2.0 * AIR_DENSITY_KGPM3 * area)
+        battery = self._platform.battery
+        return float(induced / battery.figure_of_merit + battery.avionics_w)
+
+
+def _collision_spheres_B(platform: TiltRotorPlatform) -> Points:
+    """Core, rotor discs and the inner part of the arm, in B."""
+    core, unit, tool = platform.core, platform.unit, platform.tool
+    spheres = [(0.0, 0.0, 0.0, core.radius_m)]
+    for group in platform.groups:
+        psi = np.radians(group.azimuth_deg)
+        x, y = unit.distance_m * np.cos(psi), unit.distance_m * np.sin(psi)
+        spheres.append((x, y, 0.0, platform.rotor.radius_m))
+    p_BT, _ = tool_transform(platform)
+    reach = (1.0 - BARE_TIP_SHARE) * tool.length_m
+    for distance in np.arange(core.radius_m, reach, ARM_SPHERE_M):
+        x, y, z = distance * p_BT / tool.length_m
+        spheres.append((float(x), float(y), float(z), ARM_SPHERE_M))
+    return np.array(spheres)
