@@ -1,0 +1,104 @@
+"""The simulated time-of-flight camera: a pinhole that returns one depth point per pixel.
+
+Frame D: origin at the camera's centre, axes parallel to the tool's, so the optical axis is z_D.
+The image is upright when the vehicle looks ahead along a level tool: columns count to the right
+(−y_D), rows downwards (x_D).
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from inspect_cli.compiled import kernel
+from inspect_cli.records import State
+from inspect_cli.schema.platform import TofModel
+from inspect_cli.spatial.primitives import raycast
+from inspect_cli.spatial.rotations import quaternion_to_matrix, rotate
+from inspect_cli.spatial.types import Matrix, Points, Structured, Vector
+
+
+def ray_directions(model: TofModel) -> Points:
+    """Unit vectors (rows · columns, 3) in D through the middles of the pixels, row by row."""
+    half_x, half_y = np.tan(0.5 * np.radians(model.field_of_view_deg))
+    right = half_x * ((2.0 * np.arange(model.columns) + 1.0) / model.columns - 1.0)
+    down = half_y * ((2.0 * np.arange(model.rows) + 1.0) / model.rows - 1.0)
+    rays = np.empty((model.rows, model.columns, 3))
+    rays[:, :, 0] = down[:, None]
+    rays[:, :, 1] = -right
+    rays[:, :, 2] = 1.0
+    rays /= np.linalg.norm(rays, axis=2, keepdims=True)
+    return rays.reshape(-1, 3)
+
+
+class TofCamera:
+    """Casts the camera's rays at the true surfaces and adds range noise.
+
+    ``R_BT`` (3, 3) is the tool's orientation in the body, ``primitives`` a PRIMITIVE array of the
+    true surfaces (any number). The noise of a range r is Gaussian along the ray with standard
+    deviation ``noise_floor_m + noise_m · r²``, r in metres.
+    """
+
+    def __init__(
+        self, model: TofModel, R_BT: Matrix, primitives: Structured, rng: np.random.Generator
+    ) -> None:
+        self.model = model
+        self.primitives = primitives
+        self._rng = rng
+        self._p_BD = np.array(model.position_B_m)
+        self._rays_D = ray_directions(model)
+        self._rays_B = self._rays_D @ R_BT.T
+        self._rays_W = np.empty_like(self._rays_B)
+        n_rays = self._rays_D.shape[0]
+        self._ranges = np.empty(n_rays)
+        self._noise = np.empty(n_rays)
+        self.points_D = np.full((n_rays, 3), np.nan)
+        """The measured points (rows · columns, 3), m, in D; NaN for pixels without a return."""
+
+    def sample(self, state: State) -> None:
+        """Fill ``points_D`` from the true pose of the body."""
+        p_WD = _aim_rays(self._p_BD, self._rays_B, state.p_WB, state.q_WB, self._rays_W)
+        nearest, farthest = self.model.range_m
+        raycast(self.primitives, p_WD, self._rays_W, farthest, self._ranges)
+        self._rng.standard_normal(out=self._noise)
+        _measure(
+            self._ranges,
+            self._noise,
+            nearest,
+            self.model.noise_floor_m,
+            self.model.noise_m,
+            self._rays_D,
+            self.points_D,
+        )
+
+
+@kernel
+def _aim_rays(p_BD: Vector, rays_B: Points, p_WB: Vector, q_WB: Vector, rays_W: Points) -> Vector:
+    """Turn the rays into W and return the camera's centre p_WD (3,)."""
+    R = quaternion_to_matrix(q_WB)
+    for k in range(rays_B.shape[0]):
+        x, y, z = rays_B[k, 0], rays_B[k, 1], rays_B[k, 2]
+        rays_W[k, 0] = R[0, 0] * x + R[0, 1] * y + R[0, 2] * z
+        rays_W[k, 1] = R[1, 0] * x + R[1, 1] * y + R[1, 2] * z
+        rays_W[k, 2] = R[2, 0] * x + R[2, 1] * y + R[2, 2] * z
+    return p_WB + rotate(q_WB, p_BD)
+
+
+@kernel
+def _measure(
+    ranges: Vector,
+    noise: Vector,
+    nearest: float,
+    noise_floor: float,
+    noise_at_1m: float,
+    rays_D: Points,
+    points_D: Points,
+) -> None:
+    """Write the noisy points; a range below ``nearest`` is lost, a NaN range stays NaN."""
+    for k in range(ranges.size):
+        r = ranges[k]
+        measured = r + (noise_floor + noise_at_1m * r * r) * noise[k]
+        if r < nearest:
+            measured = np.nan
+        points_D[k, 0] = measured * rays_D[k, 0]
+        points_D[k, 1] = measured * rays_D[k, 1]
+        points_D[k, 2] = measured * rays_D[k, 2]
