@@ -10,7 +10,7 @@ import numpy as np
 from inspect_cli.interfaces import Capabilities, Margins
 from inspect_cli.planning.clearance import Gap, Scene, gap_along
 from inspect_cli.planning.contact_poses import Touch
-from inspect_cli.planning.points import ContactPoint
+from inspect_cli.planning.points import ContactPoint, in_words
 from inspect_cli.schema.mission import Start
 from inspect_cli.spatial.types import Vector
 
@@ -106,13 +106,13 @@ def margin_reasons(margins: Margins, doing: str) -> list[Reason]:
 def gap_reasons(gap: Gap, clearance_m: float) -> list[Reason]:
     """Whether the body has the room that is asked for."""
     reasons = []
-    place = ", ".join(f"{x:.2f}" for x in gap.p_W)
+    where = f"'{gap.surface}' near {in_words(gap.p_W)}"
     if gap.structure_m < 0.0:
-        what = f"the body reaches {-gap.structure_m:.3f} m into '{gap.surface}' near ({place})"
+        what = f"the body overlaps {where} by {-gap.structure_m:.3f} m"
         reasons.append(Reason(what, "move the point away from it, or use a longer tool"))
     elif not gap.structure_m >= clearance_m:
         what = (
-            f"the body comes within {gap.structure_m:.3f} m of '{gap.surface}' near ({place}), "
+            f"the body comes within {gap.structure_m:.3f} m of {where}, "
             f"clearance_m is {clearance_m:.3f}"
         )
         reasons.append(Reason(what, "move the point away from it, or allow less clearance"))

@@ -24,7 +24,7 @@ from inspect_cli.planning.feasibility import (
 from inspect_cli.planning.legs import Itinerary, Visit, plan_of
 from inspect_cli.planning.order import visiting_order
 from inspect_cli.planning.path import Stop, find_way
-from inspect_cli.planning.points import ContactPoint, points_of_task
+from inspect_cli.planning.points import ContactPoint, in_words, points_of_task
 from inspect_cli.schema.mission import Mission, Start
 from inspect_cli.schema.plan import Plan, PlannedSurface
 from inspect_cli.schema.primitives import primitive_of
@@ -168,16 +168,15 @@ def _attempt(
         situation.capabilities, situation.scene, before, stop, situation.limits.clearance_m
     )
     if way is None:
-        origin = ", ".join(f"{x:.2f}" for x in before.posture.p_WB)
-        what = f"no clear way leads there from ({origin}) with {situation.limits.clearance_m:.3f} m"
+        origin = in_words(before.posture.p_WB)
+        clearance_m = situation.limits.clearance_m
+        what = f"no way from {origin} keeps {clearance_m:.3f} m from the structure"
         return [Reason(what, "start elsewhere, or allow less clearance")]
     return Visit(point, touch, way, found)
 
 
 def _unreachable(point: ContactPoint) -> Reason:
-    place = ", ".join(f"{x:.2f}" for x in point.p_WC)
-    axis = ", ".join(f"{-x:.2f}" for x in point.n_W)
-    what = f"no posture brings the tool to ({place}) along ({axis})"
+    what = f"no posture brings the tool to {in_words(point.p_WC)} along {in_words(-point.n_W)}"
     return Reason(what, "use a tool at another angle, or touch another surface")
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from dataclasses import dataclass
 from typing import Literal
 
@@ -65,6 +66,11 @@ def points_of_task(task: Task, prim: Structured, first_number: int) -> list[Cont
     ]
 
 
+def in_words(vector: Iterable[float]) -> str:
+    """A vector as messages show it: two decimals, no negative zero."""
+    return "(" + ", ".join(f"{round(float(x), 2) + 0.0:.2f}" for x in vector) + ")"
+
+
 def grid_uv(grid: ContactGrid) -> list[tuple[float, float]]:
     """(u, v) m of a grid's points, row by row from the top, each from the lowest u to the highest.
 
@@ -86,9 +92,8 @@ def _projected(prim: Structured, p_W: Triple, tolerance_m: float) -> tuple[float
     u, v, height_m = (float(x) for x in project(prim, 0, np.array(p_W)))
     if abs(height_m) <= tolerance_m:
         return u, v, ""
-    place = ", ".join(f"{x:.3f}" for x in p_W)
     fault = (
-        f"a point off the surface: ({place}) is {abs(height_m):.3f} m from it, "
+        f"a point off the surface: {in_words(p_W)} is {abs(height_m):.3f} m from it, "
         f"tolerance_m is {tolerance_m:.3f}"
     )
     return u, v, fault

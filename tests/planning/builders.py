@@ -30,7 +30,9 @@ def ball(center=(2.5, 0.0, 1.5), radius=1.0, facing=(-1.0, 0.0, 0.0), size=(1.0,
 
 
 def grid(on="wall", rows=1, columns=9, pitch_m=0.05, **more):
-    return {"contact_grid": {"on": on, "rows": rows, "columns": columns, "pitch_m": pitch_m, **more}}
+    return {
+        "contact_grid": {"on": on, "rows": rows, "columns": columns, "pitch_m": pitch_m, **more}
+    }
 
 
 def points(*at_m, on="wall", **more):
