@@ -10,6 +10,8 @@ from inspect_cli.schema.base import Strict, Triple
 
 Status = Literal["completed", "aborted", "diverged", "interrupted"]
 Verdict = Literal["pass", "fail", "fail-known", "not_measured"]
+AstmClass = Literal["passive", "uncertain", "active"]
+Corrosion = Literal["none", "possible", "active"]
 
 
 class Check(Strict):
@@ -24,6 +26,8 @@ class Check(Strict):
     verdict: Verdict
     reason: str = ""
     """Why it is not measured, or the mission's ``known_failure``."""
+    over: str | None = None
+    """``mission:metric`` by which the value was divided."""
 
 
 class Metric(Strict):
@@ -50,14 +54,19 @@ class PointResult(Strict):
     resistivity_ohm_m: float | None
     probe_force_n: float | None
     contact_s: float
-    astm_class: Literal["passive", "uncertain", "active"] | None
-    corrosion: Literal["none", "possible", "active"] | None
+    astm_class: AstmClass | None
+    corrosion: Corrosion | None
     """The combined verdict of potential and resistance, by the rule that the report states."""
     true_force_n: float | None = None
     """Mean true normal force over the last 2 s of the dwell."""
     true_force_peak_n: float | None = None
     position_error_m: float | None = None
     """Between the planned and the true contact point, along the surface."""
+    true_potential_mv: float | None = None
+    """Of the specimen under the tip, mean over the last 2 s of the dwell."""
+    true_resistivity_ohm_m: float | None = None
+    true_corrosion: Corrosion | None = None
+    """What the combined rule says of the specimen under the tip."""
 
 
 class Result(Strict):

@@ -1,0 +1,111 @@
+"""What the tool did to the surface: true forces, bounces, where it touched."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from inspect_cli.metrics.flight import TOUCH_N, Dwell, Flight, NotMeasured, largest, mean
+from inspect_cli.records import TrueContact
+from inspect_cli.schema.plan import Target
+from inspect_cli.spatial.types import Vector
+
+LONGEST_GAP_S = 0.050
+"""A loss of contact longer than this is a bounce (ledger rows A6.force, A7.slide)."""
+SETTLE_S = 1.0
+"""The force may settle for this long after the first touch (ledger row A6.force)."""
+
+
+def steady_forces(flight: Flight) -> Vector:
+    """Mean true normal force over the last 2 s of each point's dwell, (n_targets,) N.
+
+    A point that was planned and never pressed counts as 0 N.
+    """
+    force = flight.state["f_normal"]
+    dwells = [flight.dwells.get(target.index) for target in flight.contact_targets]
+    return np.array([np.mean(force[dwell.steady]) if dwell else 0.0 for dwell in dwells])
+
+
+def force_mean(flight: Flight) -> float:
+    """Mean over the points of their steady forces, N."""
+    return mean(steady_forces(flight))
+
+
+def force_mean_min(flight: Flight) -> float:
+    """The least of the points' steady forces, N."""
+    return -largest(-steady_forces(flight))
+
+
+def force_mean_max(flight: Flight) -> float:
+    """The greatest of the points' steady forces, N."""
+    return largest(steady_forces(flight))
+
+
+def force_peak(flight: Flight) -> float:
+    """Largest true normal force of the whole flight, N."""
+    return largest(flight.state["f_normal"])
+
+
+def force_cv(flight: Flight) -> float:
+    """Worst coefficient of variation (σ / mean) of a dwell's true normal force.
+
+    Each from 1 s after its first touch.
+    """
+    ratios = [_variation(flight, dwell) for dwell in flight.dwells.values()]
+    settled = [ratio for ratio in ratios if ratio is not None]
+    if not settled:
+        raise NotMeasured(f"no dwell lasted longer than {SETTLE_S:g} s")
+    return max(settled)
+
+
+def _variation(flight: Flight, dwell: Dwell) -> float | None:
+    times = flight.state["t_s"][dwell.rows]
+    settled = flight.state["f_normal"][dwell.rows][times > times[0] + SETTLE_S]
+    if len(settled) < 2:
+        return None
+    return float(np.std(settled) / np.mean(settled))
+
+
+def bounce_gaps(flight: Flight) -> float:
+    """Number of gaps longer than 50 ms with less than 0.1 N between first touch and release."""
+    return float(sum(_gaps(flight, target) for target in flight.contact_targets))
+
+
+def _gaps(flight: Flight, target: Target) -> int:
+    rows = flight.contact_rows(target.index)
+    touching = rows[flight.state["f_normal"][rows] >= TOUCH_N]
+    times = flight.state["t_s"]
+    tick_s = float(np.median(np.diff(times))) if len(times) > 1 else 0.0
+    # The tool is off for the rows in between, which is one tick less than from touch to touch.
+    gaps_s = np.diff(times[touching]) - tick_s
+    return int(np.sum(gaps_s > LONGEST_GAP_S + 1e-6))
+
+
+def body_force_max(flight: Flight) -> float:
+    """Largest contact force on anything but tool and landing gear, N, in the whole flight."""
+    return largest(flight.state["f_body"])
+
+
+def position_error(flight: Flight, target: Target) -> float | None:
+    """Distance along the surface between planned and true contact point, m; None if not pressed.
+
+    e − (e·n) n with e from the planned point to the tip's true mean position over the steady end
+    of the dwell and n the true normal there (the planned one where the log has no truth).
+    """
+    dwell = flight.dwells.get(target.index)
+    if dwell is None:
+        return None
+    normal = np.array(target.n_W)
+    if flight.log.rows(TrueContact) is not None:
+        normal = np.mean(flight.on_state_ticks(TrueContact)["n_W"][dwell.steady], axis=0)
+        normal /= np.linalg.norm(normal)
+    error = np.mean(flight.state["p_WT"][dwell.steady], axis=0) - np.array(target.p_WC)
+    return float(np.linalg.norm(error - (error @ normal) * normal))
+
+
+def position_error_max(flight: Flight) -> float:
+    """The largest ``position_error`` of the points that were pressed, m."""
+    errors = [position_error(flight, target) for target in flight.contact_targets]
+    pressed = [error for error in errors if error is not None]
+    if not pressed:
+        raise NotMeasured("no point was pressed")
+    return max(pressed)

@@ -1,0 +1,55 @@
+"""From a log to everything that is said of the flight."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+
+from inspect_cli.log.reader import RunLog
+from inspect_cli.metrics.acceptance import answer_all
+from inspect_cli.metrics.catalogue import METRICS, MetricSpec
+from inspect_cli.metrics.flight import Flight, NotMeasured
+from inspect_cli.metrics.points import point_results
+from inspect_cli.schema.result import Metric, Result
+
+
+def evaluate(log: RunLog) -> Result:
+    """Compute every metric, the fate of every point, and the mission's acceptance.
+
+    The log alone is enough. Checks that divide by another mission's metric stay
+    ``not_measured`` here; ``inspect_cli.regression`` answers them from several results.
+
+    Raises:
+        LogError: mission, platform or plan are not attached to the log.
+    """
+    flight = Flight(log)
+    mission = log.mission()
+    # The states of a diverged flight overflow; what is not finite is caught number by number.
+    with np.errstate(all="ignore"):
+        metrics = {name: measure(spec, flight) for name, spec in METRICS.items()}
+        points = point_results(flight)
+    return Result(
+        mission=mission.name,
+        platform=log.platform().name,
+        seed=log.seed,
+        status=log.status,
+        status_reason=log.status_reason,
+        checks=answer_all(mission.acceptance, metrics),
+        metrics=metrics,
+        points=points,
+    )
+
+
+def measure(spec: MetricSpec, flight: Flight) -> Metric:
+    """The metric's value, or None and the reason why the log cannot tell it."""
+    missing = [record.topic for record in spec.needs if flight.log.rows(record) is None]
+    if missing:
+        return Metric(value=None, unit=spec.unit, why=f"the log has no {', '.join(missing)}")
+    try:
+        value = spec.function(flight)
+    except NotMeasured as reason:
+        return Metric(value=None, unit=spec.unit, why=str(reason))
+    if not math.isfinite(value):
+        return Metric(value=None, unit=spec.unit, why="the log holds numbers that are not finite")
+    return Metric(value=value, unit=spec.unit)

@@ -1,0 +1,56 @@
+"""How well the surface was seen and the tool held against it."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from inspect_cli.metrics.flight import Flight, NotMeasured, mean, nearest
+from inspect_cli.metrics.geometry import direction_angle
+from inspect_cli.records import Mode, SurfaceEstimate, TrueContact
+from inspect_cli.schema.platform import Tool
+from inspect_cli.spatial.rotations import rotate
+from inspect_cli.spatial.types import Vector
+
+NO_SURFACE = -1.0
+
+
+def normal_error_mean_deg(flight: Flight) -> float:
+    """Mean angle between the seen and the true outward normal, degrees.
+
+    Over the valid estimates of approach, press and retreat, when the surface on the tool's axis
+    is the one that is nearest to the tip. Each is held against the true normal nearest in time.
+    """
+    seen = flight.rows(SurfaceEstimate)
+    true = flight.rows(TrueContact)
+    same_time = true[nearest(true["t_s"], seen["t_s"])]
+    reference = flight.reference[nearest(flight.state["t_s"], seen["t_s"])]
+    busy = (reference["mode"] >= Mode.APPROACH) & (reference["mode"] <= Mode.RETREAT)
+    usable = (seen["valid"] > 0.5) & (same_time["surface"] != NO_SURFACE) & busy
+    if not np.any(usable):
+        raise NotMeasured("no valid estimate of a surface during approach, press or retreat")
+    angles = direction_angle(seen["n_W"][usable], same_time["n_W"][usable])
+    return float(np.degrees(mean(angles)))
+
+
+def tool_axis_in_body(flight: Flight) -> Vector:
+    """z_T in B: (sin φ, 0, −cos φ) with the rigid arm's pitch φ from −z_B.
+
+    Raises:
+        NotMeasured: the platform's arm is not rigid.
+    """
+    tool = getattr(flight.platform, "tool", None)
+    if not isinstance(tool, Tool):
+        raise NotMeasured(f"a platform of kind {flight.platform.kind} has no rigid tool")
+    pitch = np.radians(tool.pitch_deg)
+    return np.array([np.sin(pitch), 0.0, -np.cos(pitch)])
+
+
+def tool_axis_error_mean_deg(flight: Flight) -> float:
+    """Mean angle between z_T and the true inward normal while the tool touches, degrees."""
+    axis_B = tool_axis_in_body(flight)
+    contact = flight.on_state_ticks(TrueContact)
+    usable = flight.touching & flight.airborne & (contact["surface"] != NO_SURFACE)
+    if not np.any(usable):
+        raise NotMeasured("the tool never touched a surface")
+    axes_W = np.array([rotate(q_WB, axis_B) for q_WB in flight.state["q_WB"][usable]])
+    return float(np.degrees(mean(direction_angle(axes_W, -contact["n_W"][usable]))))

@@ -1,0 +1,40 @@
+"""What the flight took: time, energy, actuators."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from inspect_cli.metrics.flight import Flight, largest, mean
+from inspect_cli.records import Command, Mode
+
+END_S = 1.0
+"""The end of the log over which the vehicle shall be at rest."""
+
+
+def duration(flight: Flight) -> float:
+    """Time off the ground, s: modes TAKEOFF … LAND and the safe hover after an abort."""
+    mode = flight.reference["mode"]
+    times = flight.state["t_s"][flight.airborne | (mode == Mode.HOVER)]
+    return largest(times) - float(times[0])
+
+
+def energy_planned(flight: Flight) -> float:
+    """Energy of the flight by the plan, Wh."""
+    return flight.plan.energy_wh
+
+
+def saturated_share(flight: Flight) -> float:
+    """Share of the time from take-off to landing in which the allocation granted less."""
+    return mean(flight.on_state_ticks(Command)["saturated"][flight.airborne])
+
+
+def thrust_max(flight: Flight) -> float:
+    """Largest true thrust of a single rotor, N."""
+    return largest(flight.state["rotor_thrust"])
+
+
+def end_speed(flight: Flight) -> float:
+    """Largest true speed of O_b over the last second of the log, m/s."""
+    times = flight.state["t_s"]
+    last = times > times[-1] - END_S
+    return largest(np.linalg.norm(flight.state["v_WB_W"][last], axis=1))
