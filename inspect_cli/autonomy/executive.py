@@ -156,7 +156,7 @@ class Executive:
 
     def update(self, t_s: float) -> None:
         """Decide what to do now; called at the mission rate."""
-        self._inputs.t_s = t_s
+        self._inputs.refresh(t_s)
         action, reason = self._watch.check(self.mode, self._inputs)
         if self._overtime(t_s):
             action, reason = Action.HOVER, "flight took far longer than planned"

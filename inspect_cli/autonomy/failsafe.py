@@ -11,12 +11,9 @@ from enum import IntEnum
 
 import numpy as np
 
+from inspect_cli.compiled import kernel
 from inspect_cli.records import Estimate, Mode, Reference
-from inspect_cli.spatial.rotations import (
-    quaternion_conjugate,
-    quaternion_log,
-    quaternion_multiply,
-)
+from inspect_cli.spatial.types import Structured
 
 
 class Action(IntEnum):
@@ -41,16 +38,29 @@ class FlightInputs:
     surface_seen_s: float = 0.0
     """When the last valid surface estimate came."""
 
-    @property
-    def position_error_m(self) -> float:
-        """Distance between estimate and reference."""
-        return float(np.linalg.norm(self.estimate.p_WB - self.reference.p_WB))
+    position_error_m: float = 0.0
+    """Distance between estimate and reference."""
+    attitude_error_rad: float = 0.0
+    """Angle between estimate and reference."""
 
-    @property
-    def attitude_error_rad(self) -> float:
-        """Angle between estimate and reference."""
-        error = quaternion_multiply(quaternion_conjugate(self.reference.q_WB), self.estimate.q_WB)
-        return float(np.linalg.norm(quaternion_log(error)))
+    def refresh(self, t_s: float) -> None:
+        """Bring time and errors up to date."""
+        self.t_s = t_s
+        errors = tracking_errors(self.estimate.array, self.reference.array)
+        self.position_error_m, self.attitude_error_rad = errors
+
+
+@kernel
+def tracking_errors(estimate: Structured, reference: Structured) -> tuple[float, float]:
+    """(distance m, angle rad) between an Estimate (1,) and a Reference (1,)."""
+    now, ref = estimate[0], reference[0]
+    square = 0.0
+    for k in range(3):
+        square += (now.p_WB[k] - ref.p_WB[k]) ** 2
+    cosine = 0.0
+    for k in range(4):
+        cosine += now.q_WB[k] * ref.q_WB[k]
+    return np.sqrt(square), 2.0 * np.arccos(min(abs(cosine), 1.0))
 
 
 FLYING = frozenset({Mode.TAKEOFF, Mode.TRANSIT, Mode.APPROACH, Mode.PRESS, Mode.RETREAT, Mode.LAND})

@@ -29,65 +29,55 @@ from inspect_cli.spatial.rotations import (
     quaternion_multiply,
     rotate_back,
 )
-from inspect_cli.spatial.types import Matrix, Vector
+from inspect_cli.spatial.types import Matrix, Structured, Vector
 
 GRAVITY_MPS2 = 9.81
 
 
 @kernel
 def impedance_wrench(
-    p_WB: Vector,
-    q_WB: Vector,
-    v_WB_W: Vector,
-    w_WB_B: Vector,
-    tau_hat_B: Vector,
-    p_ref: Vector,
-    q_ref: Vector,
-    v_ref: Vector,
-    w_ref: Vector,
-    a_ref: Vector,
-    alpha_ref: Vector,
+    estimate: Structured,
+    reference: Structured,
     mass: float,
     inertia_B: Matrix,
     com_B: Vector,
     shaping: Matrix,
     stiffness: Vector,
     damping: Vector,
-    wrench_B: Vector,
+    command: Structured,
     weight_B: Vector,
 ) -> None:
-    """Write the law's wrench (6,) and, apart, the force that carries the weight (3,), in B.
+    """Write the law's wrench into a Command (1,) and, apart, the force that carries the weight.
 
     ``shaping`` (2, 3, 3) holds R M̃⁻¹ Rᵀ − I for force and for torque; ``stiffness`` and
-    ``damping`` (6,) are the diagonals of K̃ and D̃ in B.
+    ``damping`` (6,) are the diagonals of K̃ and D̃ in B; ``weight_B`` (3,) is in B, N.
     """
-    p_error = rotate_back(q_WB, p_WB - p_ref)
-    v_error = rotate_back(q_WB, v_WB_W - v_ref)
-    q_error = quaternion_multiply(quaternion_conjugate(q_ref), q_WB)
-    # The same rotation vector in the reference's and in the body's frame: it is its own axis.
+    now, ref, wrench_B = estimate[0], reference[0], command[0].wrench_B
+    q_WB, w = now.q_WB, now.w_WB_B
+    p_error = rotate_back(q_WB, now.p_WB - ref.p_WB)
+    v_error = rotate_back(q_WB, now.v_WB_W - ref.v_WB_W)
+    # The rotation vector of the error is its own axis: the same in the reference's B and in B.
+    q_error = quaternion_multiply(quaternion_conjugate(ref.q_WB), q_WB)
     theta = quaternion_log(q_error)
-    w_ref_B = rotate_back(q_error, w_ref)
-    alpha_ref_B = rotate_back(q_error, alpha_ref)
-    a_ref_B = rotate_back(q_WB, a_ref)
+    w_ref_B = rotate_back(q_error, ref.w_WB_B)
+    alpha_ref_B = rotate_back(q_error, ref.alpha_WB_B)
+    a_ref_B = rotate_back(q_WB, ref.a_WB_W)
     up_B = rotate_back(q_WB, np.array([0.0, 0.0, GRAVITY_MPS2]))
-    for k in range(3):
-        weight_B[k] = mass * up_B[k]
 
     # M v̇_ref + C v + g of a rigid body about O_b whose centre of mass is at com_B.
-    w = w_WB_B
     centripetal = cross(w, cross(w, com_B))
-    momentum = inertia_B @ w
-    gyroscopic = cross(w, momentum)
+    gyroscopic = cross(w, inertia_B @ w)
     angular = inertia_B @ alpha_ref_B
     tangential = cross(alpha_ref_B, com_B)
     lever = cross(com_B, a_ref_B + up_B)
     for k in range(3):
-        wrench_B[k] = (
+        weight_B[k] = mass * up_B[k]
+        force = (
             mass * (a_ref_B[k] + up_B[k] + centripetal[k] + tangential[k])
             - stiffness[k] * p_error[k]
             - damping[k] * v_error[k]
         )
-        wrench_B[3 + k] = (
+        torque = (
             angular[k]
             + gyroscopic[k]
             + mass * lever[k]
@@ -95,8 +85,10 @@ def impedance_wrench(
             - damping[3 + k] * (w[k] - w_ref_B[k])
         )
         for j in range(3):
-            wrench_B[k] += shaping[0, k, j] * tau_hat_B[j]
-            wrench_B[3 + k] += shaping[1, k, j] * tau_hat_B[3 + j]
+            force += shaping[0, k, j] * now.wrench_B[j]
+            torque += shaping[1, k, j] * now.wrench_B[3 + j]
+        wrench_B[k] = force
+        wrench_B[3 + k] = torque
 
 
 def shaping_matrices(profile: ImpedanceProfile, R_BT: Matrix) -> Matrix:
@@ -130,26 +122,17 @@ class ImpedanceController:
 
     def update(self, estimate: Estimate, reference: Reference, command: Command) -> None:
         """Write ``command.wrench_B``."""
-        e, r, body = estimate.views, reference.views, self._body
+        body = self._body
         impedance_wrench(
-            e["p_WB"],
-            e["q_WB"],
-            e["v_WB_W"],
-            e["w_WB_B"],
-            e["wrench_B"],
-            r["p_WB"],
-            r["q_WB"],
-            r["v_WB_W"],
-            r["w_WB_B"],
-            r["a_WB_W"],
-            r["alpha_WB_B"],
+            estimate.array,
+            reference.array,
             body.mass_kg,
             body.inertia_B,
             body.com_B,
             self._shaping,
             self._stiffness,
             self._damping,
-            command.views["wrench_B"],
+            command.array,
             self.weight_B,
         )
 

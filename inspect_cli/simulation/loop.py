@@ -63,12 +63,8 @@ class Flight:
         rates = platform.rates
         structure = true_structure(truth, plan.surfaces, campaign)
         model = build_world(vehicle, truth.platform, structure)
-        proximity = Proximity(
-            truth.proximity,
-            structure.primitives,
-            vehicle.actuators.rotor_radius_m,
-            lengths["n_rotors"],
-        )
+        radius_m = vehicle.actuators.rotor_radius_m
+        proximity = Proximity(truth.proximity, structure.primitives, radius_m)
         disturbances = Disturbances(truth.disturbances)
         self.plant = Plant(model, vehicle, lengths, disturbances, proximity, rates.control_hz)
         self.plan = plan

@@ -112,7 +112,8 @@ class Plant:
         self._max_turn = vehicle.actuators.joint_rate_radps / control_hz
         self._disturbances = disturbances
         self._proximity = proximity
-        self._hubs = [model.actuator_trnid[i, 0] for i in range(self._n_rotors)]
+        self._hubs = model.actuator_trnid[: self._n_rotors, 0].copy()
+        self._gains = model.actuator_gainprm
         self._tip = model.site("tool_tip").id
         # The arrays below are views into MuJoCo's memory; they are looked up once.
         data = self.data
@@ -121,6 +122,7 @@ class Plant:
         self._applied, self._activation = data.qfrc_applied, data.act
         self._contact = data.sensordata
         self._ctrl, self._dynprm = data.ctrl, model.actuator_dynprm
+        self._warnings = data.warning.number
 
     def place(self, posture: Posture) -> None:
         """Put the vehicle somewhere at rest."""
@@ -166,12 +168,10 @@ class Plant:
 
     def feel_surroundings(self) -> None:
         """Set the thrust factors of this moment."""
-        if not self._proximity.any:
-            return
-        hubs = self.data.site_xpos[self._hubs]
-        axes = self.data.site_xmat[self._hubs][:, [2, 5, 8]]
-        factors = self._proximity.update(hubs, np.ascontiguousarray(axes))
-        self.model.actuator_gainprm[: self._n_rotors, 0] = factors
+        if self._proximity.any:
+            self._proximity.update(
+                self.data.site_xpos, self.data.site_xmat, self._hubs, self._gains
+            )
 
     def step(self, steps: int) -> None:
         """Let time pass."""
@@ -180,9 +180,7 @@ class Plant:
     @property
     def diverged(self) -> str:
         """Why the physics cannot be trusted any more; empty while it can."""
-        warned = [
-            mujoco.mjtWarning(index).name
-            for index, warning in enumerate(self.data.warning)
-            if warning.number
-        ]
-        return ", ".join(warned)
+        if not self._warnings.any():
+            return ""
+        numbers = np.flatnonzero(self._warnings)
+        return ", ".join(mujoco.mjtWarning(int(number)).name for number in numbers)

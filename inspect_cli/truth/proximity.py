@@ -22,7 +22,7 @@ import numpy as np
 from inspect_cli.compiled import kernel
 from inspect_cli.schema.truth import ProximityEffects
 from inspect_cli.spatial.primitives import patch_distance, plane, raycast
-from inspect_cli.spatial.types import Points, Structured, Vector
+from inspect_cli.spatial.types import Indices, Matrix, Points, Structured
 
 REACH_M = 2.0
 """Beyond this a surface has no effect worth computing."""
@@ -53,24 +53,30 @@ def wall_factor(distance_m: float, radius_m: float) -> float:
 
 
 @kernel
-def thrust_factors(
+def set_thrust_factors(
     surfaces: Structured,
-    hubs_W: Points,
-    axes_W: Points,
+    site_xpos: Points,
+    site_xmat: Points,
+    hubs: Indices,
     radius_m: float,
     ground: bool,
     ceiling: bool,
     wall: bool,
-    factors: Vector,
+    gains: Matrix,
 ) -> None:
-    """Write a factor per hub; hubs and thrust directions are (n, 3) in W."""
+    """Write the factor of each hub into the first column of ``gains``.
+
+    ``hubs`` (n,) are the sites of the rotors, in MuJoCo's arrays of positions and rotations; a
+    rotor's thrust is along its site's z. The first of ``surfaces`` is the ground, no wall.
+    """
     directions = np.empty((2, 3))
     ranges = np.empty(2)
-    for i in range(hubs_W.shape[0]):
+    for i in range(hubs.shape[0]):
+        hub_W = site_xpos[hubs[i]]
         for k in range(3):
-            directions[0, k] = axes_W[i, k]
-            directions[1, k] = -axes_W[i, k]
-        raycast(surfaces, hubs_W[i], directions, REACH_M, ranges)
+            directions[0, k] = site_xmat[hubs[i], 3 * k + 2]
+            directions[1, k] = -directions[0, k]
+        raycast(surfaces, hub_W, directions, REACH_M, ranges)
         factor = 1.0
         if ceiling and not np.isnan(ranges[0]):
             factor *= ceiling_factor(ranges[0], radius_m)
@@ -78,41 +84,38 @@ def thrust_factors(
             factor *= ground_factor(ranges[1], radius_m)
         if wall:
             nearest = REACH_M
-            for j in range(1, surfaces.shape[0]):  # the ground itself is no wall
-                nearest = min(nearest, abs(patch_distance(surfaces, j, hubs_W[i])))
+            for j in range(1, surfaces.shape[0]):
+                nearest = min(nearest, abs(patch_distance(surfaces, j, hub_W)))
             if nearest < REACH_M:
                 factor *= wall_factor(nearest, radius_m)
-        factors[i] = factor
+        gains[i, 0] = factor
 
 
 class Proximity:
     """The effect of the true surfaces and the ground on a vehicle's rotors."""
 
-    def __init__(
-        self, effects: ProximityEffects, primitives: Structured, radius_m: float, n_hubs: int
-    ) -> None:
+    def __init__(self, effects: ProximityEffects, primitives: Structured, radius_m: float) -> None:
         ground = plane(np.zeros(3), np.array([0.0, 0.0, 1.0]), (200.0, 200.0))
         self._surfaces = np.concatenate([ground, primitives])
         self._effects = effects
         self._radius_m = radius_m
-        self.factors = np.ones(n_hubs)
 
     @property
     def any(self) -> bool:
         """Whether any effect is switched on."""
         return self._effects.ground or self._effects.ceiling or self._effects.wall
 
-    def update(self, hubs_W: Points, axes_W: Points) -> Vector:
-        """The factor of each hub."""
+    def update(self, site_xpos: Points, site_xmat: Points, hubs: Indices, gains: Matrix) -> None:
+        """Set each rotor's gain to its factor; see ``set_thrust_factors``."""
         effects = self._effects
-        thrust_factors(
+        set_thrust_factors(
             self._surfaces,
-            hubs_W,
-            axes_W,
+            site_xpos,
+            site_xmat,
+            hubs,
             self._radius_m,
             effects.ground,
             effects.ceiling,
             effects.wall,
-            self.factors,
+            gains,
         )
-        return self.factors
