@@ -1,0 +1,253 @@
+"""Smooth trajectories: sequences of quintic stretches from wherever the reference is.
+
+Every stretch begins with the motion of the instant at which it was planned and ends at rest, so
+that the reference is continuous up to its accelerations across any replanning. Its duration is
+the shortest found at which the limits hold. From rest to rest over a distance d it is
+
+    T = max(15 d / (8 v_max), √(10 d / (√3 a_max)))
+
+because the minimum-jerk profile peaks at 15/8 d/T and 10/√3 d/T². Started in motion, a longer
+stretch of the same kind is tried until the limits hold and the path stays near the straight
+line; where none does, the vehicle brakes first and leaves from rest.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from inspect_cli.guidance.motion import Motion, MotionLimits
+from inspect_cli.guidance.quintic import (
+    evaluate_motion,
+    evaluate_quintic,
+    quintic_to_rest,
+    survey,
+)
+from inspect_cli.interfaces import Posture
+from inspect_cli.spatial.rotations import (
+    quaternion_conjugate,
+    quaternion_log,
+    quaternion_multiply,
+)
+from inspect_cli.spatial.types import Matrix, Vector
+
+SHORTEST_S = 0.1
+"""No stretch is shorter, however near its goal."""
+GROWTH = 1.1
+TRIES = 30
+"""Durations are tried in a geometric sequence; together up to 17 times the first."""
+TOLERANCE = 1.02
+"""A limit counts as kept within 2 %: a stretch that replans another at its peak touches it."""
+STRAY_M = 0.005
+STRAY_SHARE = 0.1
+"""A stretch that starts in motion may leave its straight line by the way the vehicle needs to
+brake plus 5 mm, and sideways by a tenth of the line's length more."""
+
+
+@dataclass(frozen=True)
+class Stretch:
+    """One quintic from a motion to rest: coefficients (6, n) in s = (t − start_s) / duration_s."""
+
+    start_s: float
+    duration_s: float
+    position: Matrix
+    rotation: Matrix
+    q_start: Vector
+    arm: Matrix
+
+    @classmethod
+    def to_rest(
+        cls,
+        start_s: float,
+        start: Motion,
+        p_WB: Vector,
+        phi: Vector,
+        arm: Vector,
+        duration_s: float,
+    ) -> Stretch:
+        """From ``start`` to rest at ``p_WB`` (3,), attitude R_0 Exp(``phi`` (3,)), ``arm`` (n,)."""
+        position, rotation = np.empty((6, 3)), np.empty((6, 3))
+        joints = np.empty((6, start.arm.shape[1]))
+        quintic_to_rest(start.p_WB, start.v_WB_W, start.a_WB_W, p_WB, duration_s, position)
+        quintic_to_rest(np.zeros(3), start.w_WB_B, start.alpha_WB_B, phi, duration_s, rotation)
+        angle, rate, acceleration = start.arm
+        quintic_to_rest(angle, rate, acceleration, arm, duration_s, joints)
+        return cls(start_s, duration_s, position, rotation, start.q_WB, joints)
+
+    @property
+    def end_s(self) -> float:
+        """When it comes to rest."""
+        return self.start_s + self.duration_s
+
+    def motion(self, t_s: float) -> Motion:
+        """The motion at ``t_s``; at rest in the goal after the end."""
+        p, v, a, w, alpha, tip = np.empty((6, 3))
+        q = np.empty(4)
+        evaluate_motion(
+            t_s - self.start_s,
+            self.duration_s,
+            self.position,
+            self.rotation,
+            self.q_start,
+            np.zeros(3),
+            p,
+            q,
+            v,
+            w,
+            a,
+            alpha,
+            tip,
+        )
+        return Motion(p, q, v, w, a, alpha, self.arm_motion(t_s))
+
+    def arm_motion(self, t_s: float) -> Matrix:
+        """Angles, rates and accelerations (3, n) of the arm at ``t_s``."""
+        out = np.empty((3, self.arm.shape[1]))
+        s = min(max((t_s - self.start_s) / self.duration_s, 0.0), 1.0)
+        evaluate_quintic(self.arm, s, self.duration_s, *out)
+        return out
+
+    def survey(self, limits: MotionLimits) -> tuple[float, float, float]:
+        """(largest share of a limit, way aside of the straight line, way beyond its ends)."""
+        return survey(self.position, self.rotation, self.arm, self.duration_s, limits.as_array())
+
+
+class Trajectory:
+    """Stretches one after the other; between them, and after the last, the reference rests."""
+
+    def __init__(self, stretches: Sequence[Stretch]) -> None:
+        if not stretches:
+            raise ValueError("a trajectory leads somewhere: it has at least one stretch")
+        self._stretches = list(stretches)
+        self._current = 0
+
+    @classmethod
+    def resting(cls, t_s: float, posture: Posture) -> Trajectory:
+        """The posture, held from ``t_s`` on."""
+        motion = Motion.at_rest(posture)
+        goal = motion.p_WB, np.zeros(3), motion.arm[0]
+        return cls([Stretch.to_rest(t_s, motion, *goal, SHORTEST_S)])
+
+    @property
+    def end_s(self) -> float:
+        """When the last stretch comes to rest."""
+        return self._stretches[-1].end_s
+
+    def at(self, t_s: float) -> Stretch:
+        """The stretch that holds at ``t_s``. Time is asked in order: it does not run back."""
+        stretch = self._stretches[self._current]
+        while t_s >= stretch.end_s and self._current + 1 < len(self._stretches):
+            self._current += 1
+            stretch = self._stretches[self._current]
+        return stretch
+
+    def motion(self, t_s: float) -> Motion:
+        """The motion at ``t_s``."""
+        return self.at(t_s).motion(t_s)
+
+
+def to_goal(
+    t_s: float, start: Motion, goal: Posture, limits: MotionLimits, at_least_s: float = 0.0
+) -> list[Stretch]:
+    """From ``start`` at ``t_s`` to rest at ``goal``: one stretch, or a braking one before it.
+
+    It takes ``at_least_s``, and longer where the limits ask for it. Raises ValueError when the
+    goal's arm has another number of joints.
+    """
+    p_goal = np.asarray(goal.p_WB, dtype=np.float64)
+    phi = turn_between(start.q_WB, goal.q_WB)
+    arm = np.asarray(goal.arm_angle, dtype=np.float64)
+    if arm.shape != start.arm[0].shape:
+        raise ValueError(f"the arm has {start.arm.shape[1]} joints, its goal {arm.size} angles")
+    duration = max(at_least_s, SHORTEST_S)
+    braking = _braking_time(start, limits)
+    if braking == 0.0 or at_least_s == 0.0:
+        way = float(np.linalg.norm(p_goal - start.p_WB))
+        joint = float(np.abs(arm - start.arm[0]).max(initial=0.0))
+        turn = max(float(np.linalg.norm(phi)), joint)
+        duration = max(duration, _rest_time(way, turn, limits))
+    stray = 0.5 * float(np.linalg.norm(start.v_WB_W)) * braking + STRAY_M
+    for _ in range(TRIES):
+        stretch = Stretch.to_rest(t_s, start, p_goal, phi, arm, duration)
+        ratio, aside, beyond = stretch.survey(limits)
+        aside -= STRAY_SHARE * float(np.linalg.norm(p_goal - start.p_WB))
+        if ratio <= TOLERANCE and aside <= stray and beyond <= stray:
+            return [stretch]
+        duration *= GROWTH
+    brake = to_stop(t_s, start, limits)
+    return [brake, *to_goal(brake.end_s, brake.motion(brake.end_s), goal, limits)]
+
+
+def through(
+    t_s: float, start: Motion, goals: Sequence[Posture], limits: MotionLimits
+) -> list[Stretch]:
+    """From ``start`` at ``t_s`` to each goal in turn, at rest in every one of them."""
+    stretches: list[Stretch] = []
+    for goal in goals:
+        stretches += to_goal(t_s, start, goal, limits)
+        t_s = stretches[-1].end_s
+        start = stretches[-1].motion(t_s)
+    return stretches
+
+
+def to_stop(t_s: float, start: Motion, limits: MotionLimits) -> Stretch:
+    """From ``start`` at ``t_s`` to rest as soon as the limits allow, wherever that is.
+
+    With the end left free, at x_0 + v_0 T/2 + a_0 T²/12, the quintic loses its highest power and
+    the speed falls along a cubic without overshoot: v(s) = v_0 (1 − 3s² + 2s³) from a_0 = 0.
+    """
+    present = MotionLimits(
+        max(limits.speed_mps, float(np.linalg.norm(start.v_WB_W))),
+        limits.acceleration_mps2,
+        max(limits.angular_rate_radps, float(np.linalg.norm(start.w_WB_B))),
+        limits.angular_acceleration_radps2,
+    )
+    duration = max(SHORTEST_S, _braking_time(start, limits))
+    best = _free_stop(t_s, start, duration)
+    least = best.survey(present)[0]
+    for _ in range(TRIES):
+        if least <= TOLERANCE:
+            break
+        duration *= GROWTH
+        stretch = _free_stop(t_s, start, duration)
+        ratio = stretch.survey(present)[0]
+        if ratio < least:
+            best, least = stretch, ratio
+    return best
+
+
+def _free_stop(t_s: float, start: Motion, T: float) -> Stretch:
+    p_end = start.p_WB + 0.5 * T * start.v_WB_W + T * T / 12.0 * start.a_WB_W
+    phi = 0.5 * T * start.w_WB_B + T * T / 12.0 * start.alpha_WB_B
+    arm = start.arm[0] + 0.5 * T * start.arm[1] + T * T / 12.0 * start.arm[2]
+    return Stretch.to_rest(t_s, start, p_end, phi, arm, T)
+
+
+def turn_between(q_from: Vector, q_to: Vector) -> Vector:
+    """The rotation vector φ (3,), of length at most π, with R_to = R_from Exp(φ)."""
+    relative = quaternion_multiply(quaternion_conjugate(q_from), np.asarray(q_to, dtype=np.float64))
+    return quaternion_log(relative)
+
+
+def _rest_time(way: float, turn: float, limits: MotionLimits) -> float:
+    """Least duration from rest to rest over a way in m and a turn in rad."""
+    peak = 10.0 / math.sqrt(3.0)
+    return max(
+        15.0 / 8.0 * way / limits.speed_mps,
+        math.sqrt(peak * way / limits.acceleration_mps2),
+        15.0 / 8.0 * turn / limits.angular_rate_radps,
+        math.sqrt(peak * turn / limits.angular_acceleration_radps2),
+    )
+
+
+def _braking_time(start: Motion, limits: MotionLimits) -> float:
+    """Duration of a stop without initial acceleration: v falls along a cubic, peak 3/2 v_0/T."""
+    speed = float(np.linalg.norm(start.v_WB_W))
+    turn = max(float(np.linalg.norm(start.w_WB_B)), float(np.abs(start.arm[1]).max(initial=0.0)))
+    return 1.5 * max(
+        speed / limits.acceleration_mps2,
+        turn / limits.angular_acceleration_radps2,
+    )

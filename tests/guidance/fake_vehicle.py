@@ -1,0 +1,92 @@
+"""A rigid vehicle with a tool and no opinion about actuators, for guidance alone."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from inspect_cli.interfaces import Margins, Posture
+from inspect_cli.schema.plan import PostureModel, Target
+from inspect_cli.spatial.rotations import matrix_to_quaternion, quaternion_to_matrix
+
+R_BT_AHEAD = np.array([[0.0, 0.0, 1.0], [0.0, 1.0, 0.0], [-1.0, 0.0, 0.0]])
+"""A tool along x_B: z_T = x_B, y_T = y_B."""
+
+
+@dataclass
+class FakeVehicle:
+    """Reaches every pose of its tool at once, or none when ``reach`` is switched off."""
+
+    p_BT: np.ndarray = field(default_factory=lambda: np.array([0.55, 0.0, 0.02]))
+    R_BT: np.ndarray = field(default_factory=lambda: R_BT_AHEAD.copy())
+    max_speed_mps: float = 1.0
+    max_acceleration_mps2: float = 1.0
+    max_angular_rate_radps: float = 0.7
+    standing_height_m: float = 0.2
+    reach: bool = True
+
+    @property
+    def lengths(self):
+        return {"n_rotors": 4, "n_joints": 0}
+
+    def tool_pose(self, posture):
+        R_WB = quaternion_to_matrix(posture.q_WB)
+        return posture.p_WB + R_WB @ self.p_BT, R_WB @ self.R_BT
+
+    def posture_for_tool(self, p_WT, R_WT, near):
+        if not self.reach:
+            return None
+        R_WB = np.ascontiguousarray(R_WT @ self.R_BT.T)
+        return Posture(p_WT - R_WB @ self.p_BT, matrix_to_quaternion(R_WB), near.arm_angle)
+
+    def collision_spheres(self, posture):
+        return np.array([[*posture.p_WB, 0.4]])
+
+    def margins(self, posture, wrench_tool_W):
+        return Margins(1.0, np.inf)
+
+    def press_force(self, press_m):
+        return 18.0 * press_m
+
+    def hover_power_w(self, posture):
+        return 500.0
+
+
+class FakeArm(FakeVehicle):
+    """A telescope of two joints: the tip moves out along x_B with the sum of their angles."""
+
+    def tool_pose(self, posture):
+        R_WB = quaternion_to_matrix(posture.q_WB)
+        p_BT = self.p_BT + np.array([0.1 * posture.arm_angle.sum(), 0.0, 0.0])
+        return posture.p_WB + R_WB @ p_BT, R_WB @ self.R_BT
+
+
+def target_at(vehicle, p_WC, n_W, R_WT, standoff_m=0.25, press_m=0.1) -> Target:
+    """A contact target whose postures are the vehicle's own."""
+    here = Posture(np.zeros(3), np.array([1.0, 0.0, 0.0, 0.0]))
+
+    def model(depth):
+        posture = vehicle.posture_for_tool(p_WC - depth * n_W, R_WT, here)
+        return PostureModel(p_WB=tuple(posture.p_WB.tolist()), q_WB=tuple(posture.q_WB.tolist()))
+
+    return Target(
+        index=0,
+        label="A1",
+        kind="contact",
+        surface="wall",
+        uv_m=(0.0, 0.0),
+        p_WC=tuple(p_WC.tolist()),
+        n_W=tuple(n_W.tolist()),
+        q_WT=tuple(matrix_to_quaternion(np.ascontiguousarray(R_WT)).tolist()),
+        sensor="half_cell",
+        press_m=press_m,
+        dwell_s=3.0,
+        standoff_m=standoff_m,
+        standoff=model(-standoff_m),
+        contact=model(0.0),
+        expected_force_n=1.8,
+        thrust_margin_n=5.0,
+        tilt_margin_rad=None,
+        clearance_m=0.2,
+    )
