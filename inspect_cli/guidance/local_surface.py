@@ -99,8 +99,9 @@ def fit_local_plane(
     scatter = np.zeros((3, 3))
     n = _gather(points_D, p_DT, radius, mean_T, scatter)
     if n < 3:
-        p_WC[:] = np.nan
-        n_W[:] = np.nan
+        for i in range(3):
+            p_WC[i] = np.nan
+            n_W[i] = np.nan
         return float(n), np.nan, np.nan, np.nan, np.nan, np.nan
     axes = _principal_axes(scatter)
     low = 0
@@ -116,7 +117,7 @@ def fit_local_plane(
     square = 0.0
     for i in range(3):
         p_BC[i] += p_BT[i]
-        square += (mean_T[i] + p_DT[i]) ** 2
+        square += (mean_T[i] + p_DT[i]) * (mean_T[i] + p_DT[i])
     p_BC_W = rotate(q_WB, p_BC)
     turned_n = rotate(q_WB, _turned(R_BT, n_T))
     for i in range(3):
@@ -175,7 +176,8 @@ def _principal_axes(A: Matrix) -> Matrix:
     Cyclic Jacobi rotations (Golub & Van Loan, Matrix Computations, 8.5), which keep small
     eigenvalues accurate where closed forms by the cubic's roots lose them.
     """
-    V = np.eye(3)
+    V = np.zeros((3, 3))
+    V[0, 0] = V[1, 1] = V[2, 2] = 1.0
     for _ in range(8):
         off = A[0, 1] * A[0, 1] + A[0, 2] * A[0, 2] + A[1, 2] * A[1, 2]
         scale = A[0, 0] * A[0, 0] + A[1, 1] * A[1, 1] + A[2, 2] * A[2, 2]

@@ -76,20 +76,20 @@ def body_rates(
         b = (1.0 - sinc) / square
         a_rate = along * (sinc - 2.0 * a) / square
         b_rate = along * (a - 3.0 * b) / square
+    # [φ]×² x = φ (φ · x) − |φ|² x, and φ̇ × (φ × φ̇) = φ |φ̇|² − φ̇ (φ · φ̇).
     once = cross(phi, phi_rate)
-    twice = cross(phi, once)
-    mixed = cross(phi_rate, once)
     once_acceleration = cross(phi, phi_acceleration)
-    twice_acceleration = cross(phi, once_acceleration)
+    along_acceleration, speed_square = 0.0, 0.0
     for i in range(3):
-        w[i] = phi_rate[i] - a * once[i] + b * twice[i]
-        alpha[i] = (
-            phi_acceleration[i]
-            - a * once_acceleration[i]
-            + b * (twice_acceleration[i] + mixed[i])
-            - a_rate * once[i]
-            + b_rate * twice[i]
-        )
+        along_acceleration += phi[i] * phi_acceleration[i]
+        speed_square += phi_rate[i] * phi_rate[i]
+    for i in range(3):
+        twice = phi[i] * along - square * phi_rate[i]
+        twice_acceleration = phi[i] * along_acceleration - square * phi_acceleration[i]
+        mixed = phi[i] * speed_square - phi_rate[i] * along
+        w[i] = phi_rate[i] - a * once[i] + b * twice
+        alpha[i] = phi_acceleration[i] - a * once_acceleration[i] - a_rate * once[i]
+        alpha[i] += b * (twice_acceleration + mixed) + b_rate * twice
 
 
 @kernel
