@@ -46,8 +46,9 @@ ATTITUDE_FLOOR_RAD: Final = 1e-5
 
 
 class ErrorStateFilter:
-    """Position, velocity, attitude and inertial biases of the body, with their covariance.
+    """Position, velocity, attitude and inertial biases of the body.
 
+    ``covariance`` (15, 15) is that of the error state, in the order of ``Estimate.sigma``.
     ``rejected`` counts the poses rejected in a row. A lone outlier is ignored; after
     ``RESTART_AFTER`` of them (0.2 s at 100 Hz) position and attitude are taken from the tracker
     and the velocity is learnt anew, while the biases and their covariance stay.
@@ -70,7 +71,7 @@ class ErrorStateFilter:
         self._pose_variance = np.repeat([position_sd**2, attitude_sd**2], 3)
         self._p, self._v, self._q = np.zeros(3), np.zeros(3), np.array([1.0, 0.0, 0.0, 0.0])
         self._bias = np.zeros(6)
-        self._P = np.zeros((STATES, STATES))
+        self.covariance = np.zeros((STATES, STATES))
         self._t = 0.0
         self._held, self._held_t = np.zeros(6), math.nan
         self._mean = np.zeros(6)
@@ -84,8 +85,8 @@ class ErrorStateFilter:
         if not (np.isfinite(pose.p_WB).all() and np.isfinite(pose.q_WB).all()):
             raise ValueError("the filter cannot start from a pose that is not finite")
         self._bias[:] = 0.0
-        self._P[:] = 0.0
-        np.fill_diagonal(self._P[9:, 9:], self._bias_variance)
+        self.covariance[:] = 0.0
+        np.fill_diagonal(self.covariance[9:, 9:], self._bias_variance)
         self._held[:], self._held_t = 0.0, math.nan
         self._t = pose.t_s
         self._restart_motion(pose)
@@ -112,7 +113,14 @@ class ErrorStateFilter:
             self._advance(self._held, dt)
         innovation = pose_innovation(self._p, self._q, pose.p_WB, pose.q_WB)
         chi2 = correct_pose(
-            self._p, self._v, self._q, self._bias, self._P, innovation, self._pose_variance, GATE
+            self._p,
+            self._v,
+            self._q,
+            self._bias,
+            self.covariance,
+            innovation,
+            self._pose_variance,
+            GATE,
         )
         accepted = chi2 <= GATE or self._outvoted(pose, chi2)
         if accepted:
@@ -134,20 +142,20 @@ class ErrorStateFilter:
         # A sample that serves for longer than its period carries its error all along.
         stretch = dt * self._imu_hz
         noise = self._noise if stretch < 1.5 else self._noise * stretch
-        propagate(self._p, self._v, self._q, self._bias, self._P, sample, dt, noise)
+        propagate(self._p, self._v, self._q, self._bias, self.covariance, sample, dt, noise)
         self._t += dt
 
     def _restart_motion(self, pose: Pose) -> None:
         self._p[:] = pose.p_WB
         self._q[:] = quaternion_normalize(pose.q_WB)
         self._v[:] = 0.0
-        self._P[:9, :] = 0.0
-        self._P[:, :9] = 0.0
+        self.covariance[:9, :] = 0.0
+        self.covariance[:, :9] = 0.0
         position, attitude = self._pose_variance[:3], self._pose_variance[3:]
         speed = np.full(3, START_SPEED_MPS**2)
-        np.fill_diagonal(self._P[:9, :9], np.concatenate([position, speed, attitude]))
+        np.fill_diagonal(self.covariance[:9, :9], np.concatenate([position, speed, attitude]))
         self.rejected = 0
 
     def _publish(self, estimate: Estimate) -> None:
         estimate.t_s = self._t
-        publish(self._p, self._v, self._q, self._bias, self._P, self._held, estimate.array)
+        publish(self._p, self._v, self._q, self._bias, self.covariance, self._held, estimate.array)

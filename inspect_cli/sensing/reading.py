@@ -91,14 +91,14 @@ class ReadingJudge:
         """Whether the reading is accepted, or the time of dwell and time-out is over."""
         return self._accepted or t_s >= self._begun_s + self._dwell_s + self._model.timeout_s
 
-    def finish(self, t_s: float, aborted: bool = False) -> Reading:
-        """The verdict. A visit that is ``aborted`` before it has a reading says so."""
+    def finish(self, t_s: float) -> Reading:
+        """The verdict: the reading, or NaN values with the reason."""
         samples = self._last(self._model.stable_s)
         reading = Reading.create()
         reading.t_s = t_s
         reading.target = self._target
         reading.valid = float(self._accepted)
-        reading.reason = float(self._reason(samples, aborted))
+        reading.reason = float(self._reason(samples))
         reading.contact_s = self._longest_s
         reading.potential = reading.resistance = reading.force_mean = math.nan
         reading.p_WT = math.nan
@@ -129,12 +129,10 @@ class ReadingJudge:
         self._total_s += dt
         self._longest_s = max(self._longest_s, self._run_s)
 
-    def _reason(self, samples: list[Sample], aborted: bool) -> InvalidReason:
+    def _reason(self, samples: list[Sample]) -> InvalidReason:
         """Why the visit has no reading; the first cause in the chain of what it takes."""
         if self._accepted:
             return InvalidReason.NONE
-        if aborted:
-            return InvalidReason.ABORTED
         if self._largest_n < NO_CONTACT_SHARE * self._model.min_force_n:
             return InvalidReason.NO_CONTACT
         if self._run_s < self._unbroken_s - TICK_S or self._total_s < self._dwell_s - TICK_S:

@@ -1,0 +1,95 @@
+"""The simulated half-cell: what it reads in contact, while wetting, pressed lightly, and lifted."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from inspect_cli.records import State, TrueContact
+from inspect_cli.schema.platform import HalfCellModel
+from inspect_cli.sensing.half_cell import FLOATING_V, OVER_RANGE_OHM, HalfCellProbe
+
+QUIET = HalfCellModel(
+    potential_noise_v=0.0,
+    resistance_noise=0.0,
+    force_noise_n=0.0,
+    cell_constant_m=0.05,
+    wetting_s=0.5,
+    dry_offset_v=0.04,
+    cable_m=10.0,
+)
+NOISY = QUIET.model_copy(
+    update={"potential_noise_v": 0.002, "resistance_noise": 0.03, "force_noise_n": 0.1}
+)
+
+
+class Bench:
+    """A probe over a specimen of −350 mV and 80 Ω·m."""
+
+    def __init__(self, model: HalfCellModel, seed: int = 0) -> None:
+        self.probe = HalfCellProbe(model, np.random.default_rng(seed))
+        self.state = State.create({"n_rotors": 0, "n_joints": 0})
+        self.contact = TrueContact.create()
+        self.contact.potential, self.contact.resistivity = -0.35, 80.0
+
+    def press(self, force: float, seconds: float) -> np.ndarray:
+        """Samples (n, 3) = (V, Ω, N) at 50 Hz."""
+        out = []
+        for _ in range(round(50 * seconds)):
+            self.state.t_s += 0.02
+            self.state.f_normal = force
+            self.probe.sample(self.state, self.contact)
+            m = self.probe.measurement
+            assert m.t_s == self.state.t_s
+            out.append((m.potential, m.resistance, m.force))
+        return np.array(out)
+
+
+def test_a_wetted_contact_reads_the_specimen() -> None:
+    potential, resistance, force = Bench(QUIET).press(2.0, 10.0)[-1]
+    assert potential == pytest.approx(-0.35, abs=1e-9)
+    assert resistance == pytest.approx(80.0 / 0.05)
+    assert force == 2.0
+
+
+def test_wetting_decays_with_its_time_constant() -> None:
+    samples = Bench(QUIET).press(2.0, 2.0)
+    t = 0.02 * np.arange(1, 101)
+    assert samples[:, 0] == pytest.approx(-0.35 + 0.04 * np.exp(-t / 0.5))
+    assert samples[:, 1] == pytest.approx(1600.0 * (1.0 + np.exp(-t / 0.5)))
+
+
+def test_light_pressing_raises_the_resistance() -> None:
+    assert Bench(QUIET).press(0.4, 10.0)[-1, 1] == pytest.approx(1600.0 * 1.6)
+
+
+def test_a_bounce_keeps_the_contact_wet_and_a_transit_dries_it() -> None:
+    bench = Bench(QUIET)
+    bench.press(2.0, 3.0)
+    bench.press(0.0, 0.04)
+    after_bounce = bench.press(2.0, 0.02)[0, 0]
+    assert after_bounce == pytest.approx(-0.35, abs=0.001)
+    bench.press(0.0, 5.0)
+    assert bench.press(2.0, 0.02)[0, 0] == pytest.approx(-0.35 + 0.04, abs=0.002)
+
+
+@pytest.mark.parametrize("why", ["lifted", "no specimen"])
+def test_an_open_circuit_floats(why: str) -> None:
+    bench = Bench(NOISY)
+    if why == "no specimen":
+        bench.contact.potential = bench.contact.resistivity = np.nan
+    force = 0.0 if why == "lifted" else 2.0
+    samples = bench.press(force, 400.0)
+    assert (samples[:, 1] == OVER_RANGE_OHM).all()
+    # 400 s hold some 600 independent values of the wandering potential.
+    assert samples[:, 0].std() == pytest.approx(FLOATING_V, rel=0.2)
+    assert abs(samples[:, 0].mean()) < 0.05
+    assert samples[:, 2].mean() == pytest.approx(force, abs=0.01)
+
+
+def test_noise_is_as_the_model_says() -> None:
+    bench = Bench(NOISY)
+    bench.press(2.0, 10.0)
+    samples = bench.press(2.0, 200.0)  # 10,000 samples: sd within 0.7 %, five times that
+    assert samples.std(axis=0) == pytest.approx([0.002, 0.03 * 1600.0, 0.1], rel=0.036)
+    assert samples.mean(axis=0) == pytest.approx([-0.35, 1600.0, 2.0], rel=0.002)
