@@ -11,14 +11,11 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from inspect_cli.guidance.orientation import contact_orientation
 from inspect_cli.interfaces import Capabilities, Posture
 from inspect_cli.planning.points import ContactPoint
-from inspect_cli.spatial.rotations import cross, quaternion_to_matrix
+from inspect_cli.spatial.rotations import quaternion_to_matrix
 from inspect_cli.spatial.types import Matrix, Vector
-
-VERTICAL_COSINE = float(np.cos(np.radians(1.0)))
-"""A tool closer than this to the vertical has no level direction to follow and keeps its own."""
-TIE = 1e-9
 
 
 @dataclass(frozen=True)
@@ -43,28 +40,18 @@ class Touch:
 def tool_attitudes(n_W: Vector, y_near_W: Vector) -> tuple[Matrix, Matrix]:
     """The two R_WT (3, 3) with z_T = −n and level y_T; first the one nearer to ``y_near_W``.
 
-    y_T = ± unit(z_W × z_T). Where z_T is within 1° of the vertical, that direction is left to
-    the noise of n; there y_T is the level part of ``y_near_W``, made square to z_T, so that the
-    heading is kept.
+    Where z_T is within 1° of the vertical, y_T is the level part of ``y_near_W`` made square to
+    z_T, so that the heading is kept, or its opposite.
     """
-    z_T = -n_W
-    near = _level(y_near_W)
-    if abs(z_T[2]) > VERTICAL_COSINE:
-        y_T = near - (near @ z_T) * z_T
-    else:
-        y_T = np.array([-z_T[1], z_T[0], 0.0])
-        if y_T @ near < -TIE:
-            y_T = -y_T
-    y_T = y_T / np.linalg.norm(y_T)
-    x_T = cross(y_T, z_T)
-    return np.column_stack([x_T, y_T, z_T]), np.column_stack([-x_T, -y_T, z_T])
+    near = contact_orientation(n_W, _level(y_near_W))
+    return near, near * np.array([-1.0, -1.0, 1.0])
 
 
 def touches(capabilities: Capabilities, point: ContactPoint, previous: Posture) -> list[Touch]:
     """The ways to touch a point, best first; empty when the point is out of reach.
 
-    A posture in which the vehicle stays upright, z_B · z_W > 0, comes before one that hangs;
-    of two alike, the one closer to the heading of the posture ``previous``.
+    Of the two, first the one closer to the heading of the posture ``previous``. The vehicle
+    stays upright, z_B · z_W > 0, wherever one of them allows it.
     """
     y_near_W = capabilities.tool_pose(previous)[1][:, 1]
     found = []
@@ -72,7 +59,7 @@ def touches(capabilities: Capabilities, point: ContactPoint, previous: Posture) 
         touch = _touch(capabilities, point, R_WT, previous)
         if touch is not None:
             found.append(touch)
-    return sorted(found, key=lambda touch: not touch.upright)
+    return [touch for touch in found if touch.upright] or found
 
 
 def _touch(
@@ -90,8 +77,8 @@ def _touch(
 
 
 def _level(y_W: Vector) -> Vector:
-    """The level part of a direction, of unit length; y_W where the direction is vertical."""
+    """The level part of a direction, of unit length; along y of W where it is vertical."""
     norm = float(np.hypot(y_W[0], y_W[1]))
-    if norm < TIE:
+    if norm < 1e-9:
         return np.array([0.0, 1.0, 0.0])
     return np.array([y_W[0] / norm, y_W[1] / norm, 0.0])

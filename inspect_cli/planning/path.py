@@ -4,12 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
+from itertools import pairwise
 
 import numpy as np
 
 from inspect_cli.interfaces import Capabilities, Posture
 from inspect_cli.planning.clearance import Scene, body_reach_m, gap_along
-from inspect_cli.planning.timing import extent, path_m
+from inspect_cli.planning.timing import path_m, same
 from inspect_cli.spatial.types import Vector
 
 Way = tuple[Posture, ...]
@@ -44,17 +45,20 @@ def find_way(
     shortest clear one of those that back off along the normals, rise over the top of the
     structure, or pass one or two corners of its outline on the ground plan.
     """
-    if extent(a.posture, b.posture) == (0.0, 0.0):
+    if same(a.posture, b.posture):
         return ()
+
+    def clear(way: Way) -> bool:
+        stretches = pairwise((a.posture, *way))
+        return all(gap_along(capabilities, scene, s).clears(clearance_m) for s in stretches)
+
     straight: Way = (b.posture,)
-    if gap_along(capabilities, scene, [a.posture, b.posture]).clears(clearance_m):
+    if clear(straight):
         return straight
     room_m = body_reach_m(capabilities, b.posture) + clearance_m + DETOUR_MARGIN_M
     detours = [_without_pauses(a.posture, way) for way in _detours(scene, a, b, room_m)]
-    for way in sorted(detours, key=lambda way: path_m((a.posture, *way))):
-        if gap_along(capabilities, scene, [a.posture, *way]).clears(clearance_m):
-            return way
-    return None
+    detours.sort(key=lambda way: path_m((a.posture, *way)))
+    return next((way for way in detours if clear(way)), None)
 
 
 def _detours(scene: Scene, a: Stop, b: Stop, room_m: float) -> Iterator[Way]:
@@ -95,7 +99,7 @@ def _without_pauses(start: Posture, way: Way) -> Way:
     kept: list[Posture] = []
     before = start
     for posture in way:
-        if extent(before, posture) != (0.0, 0.0):
+        if not same(before, posture):
             kept.append(posture)
             before = posture
     return tuple(kept)

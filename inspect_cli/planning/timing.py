@@ -1,8 +1,9 @@
 """How long a motion takes and what it costs.
 
-Every stretch from rest to rest follows the quintic s(τ) = 10τ³ − 15τ⁴ + 6τ⁵ of τ = t/T, whose
-peaks over a distance d are 15/8 · d/T in speed and 10/√3 · d/T² in acceleration (Biagiotti &
-Melchiorri, "Trajectory Planning for Automatic Machines and Robots", 2008).
+The stretches are those that guidance flies: quintics from rest to rest. Over a way d and a turn
+θ such a stretch peaks at 15/8 · d/T in speed and 10/√3 · d/T² in acceleration, so it takes
+
+    T = max(15 d / 8 v, √(10 d / √3 a), 15 θ / 8 ω, √(10 θ / √3 α))
 """
 
 from __future__ import annotations
@@ -12,15 +13,12 @@ from itertools import pairwise
 
 import numpy as np
 
+from inspect_cli.guidance.motion import Motion, MotionLimits
+from inspect_cli.guidance.trajectory import to_goal, turn_between
 from inspect_cli.interfaces import Capabilities, Posture
-from inspect_cli.spatial.rotations import (
-    quaternion_conjugate,
-    quaternion_log,
-    quaternion_multiply,
-)
 
-PEAK_SPEED = 15.0 / 8.0
-PEAK_ACCELERATION = 10.0 / np.sqrt(3.0)
+SAME = 1e-6
+"""Metres and radians that no vehicle notices."""
 
 
 def extent(a: Posture, b: Posture) -> tuple[float, float]:
@@ -28,30 +26,25 @@ def extent(a: Posture, b: Posture) -> tuple[float, float]:
 
     The turn is the larger of the body's rotation angle and any arm joint's motion.
     """
-    turn = quaternion_log(quaternion_multiply(quaternion_conjugate(a.q_WB), b.q_WB))
+    turn = float(np.linalg.norm(turn_between(a.q_WB, b.q_WB)))
     joints = np.abs(b.arm_angle - a.arm_angle)
-    angle = max(float(np.linalg.norm(turn)), float(joints.max(initial=0.0)))
-    return float(np.linalg.norm(b.p_WB - a.p_WB)), angle
+    return float(np.linalg.norm(b.p_WB - a.p_WB)), max(turn, float(joints.max(initial=0.0)))
 
 
-def rest_to_rest_s(
-    distance_m: float, angle_rad: float, speed_mps: float, capabilities: Capabilities
-) -> float:
-    """The shortest time, s, of a quintic stretch that keeps to all limits.
-
-    T = max(15 d / 8 v, √(10 d / √3 a), 15 θ / 8 ω); ``speed_mps`` is the peak speed v, the
-    vehicle's own limits are the acceleration a and the rate ω for body and arm joints.
-    """
-    return max(
-        PEAK_SPEED * distance_m / speed_mps,
-        float(np.sqrt(PEAK_ACCELERATION * distance_m / capabilities.max_acceleration_mps2)),
-        PEAK_SPEED * angle_rad / capabilities.max_angular_rate_radps,
-    )
+def same(a: Posture, b: Posture) -> bool:
+    """Whether two postures differ by no more than rounding."""
+    distance_m, angle_rad = extent(a, b)
+    return distance_m < SAME and angle_rad < SAME
 
 
 def path_m(postures: Sequence[Posture]) -> float:
     """Length, m, of the body's path through the postures."""
     return sum(extent(a, b)[0] for a, b in pairwise(postures))
+
+
+def rest_to_rest_s(a: Posture, b: Posture, limits: MotionLimits) -> float:
+    """The time, s, in which guidance goes from rest in ``a`` to rest in ``b``."""
+    return to_goal(0.0, Motion.at_rest(a), b, limits)[-1].end_s
 
 
 def duration_and_energy(
@@ -62,11 +55,11 @@ def duration_and_energy(
     The power of a stretch is the mean of the hover powers at its ends: at the plan's
     accelerations the thrust is the weight's to a few percent.
     """
+    limits = MotionLimits.of(capabilities, speed_mps)
     powers = [capabilities.hover_power_w(posture) for posture in postures]
     time_s, energy_j = dwell_s, dwell_s * powers[-1]
     for k, (a, b) in enumerate(pairwise(postures)):
-        distance_m, angle_rad = extent(a, b)
-        stretch_s = rest_to_rest_s(distance_m, angle_rad, speed_mps, capabilities)
+        stretch_s = rest_to_rest_s(a, b, limits)
         time_s += stretch_s
         energy_j += stretch_s * 0.5 * (powers[k] + powers[k + 1])
     return time_s, energy_j

@@ -172,10 +172,14 @@ def rest_to_rest(a, b, speed, vehicle):
     d = np.linalg.norm(np.array(b.p_WB) - a.p_WB)
     turn = 2.0 * np.arccos(min(1.0, abs(np.dot(a.q_WB, b.q_WB))))
     joints = np.abs(np.array(b.arm_angle_rad) - a.arm_angle_rad).max(initial=0.0)
+    angle = max(turn, joints)
+    # Angular acceleration: the largest rate in the time that the largest speed takes.
+    rise_s = vehicle.max_speed_mps / vehicle.max_acceleration_mps2
     return max(
         1.875 * d / speed,
         np.sqrt(10.0 / np.sqrt(3.0) * d / vehicle.max_acceleration_mps2),
-        1.875 * max(turn, joints) / vehicle.max_angular_rate_radps,
+        1.875 * angle / vehicle.max_angular_rate_radps,
+        np.sqrt(10.0 / np.sqrt(3.0) * angle / vehicle.max_angular_rate_radps * rise_s),
     )
 
 
