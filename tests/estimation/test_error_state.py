@@ -120,14 +120,14 @@ class Run:
 
 
 def test_errors_are_as_large_as_the_filter_says() -> None:
-    """Average NEES of 50 runs. Every check is a draw from χ²(50 · dof) / 50.
+    """Normalised estimation error squared, average of 50 runs. Every check is a draw from χ²(50 · dof) / 50.
 
     All have to lie in the 99.9 % band, nine in ten in the 95 % band, and so has the whole state
     at the end of the flight.
     """
     runs, instants = 50, range(250, 5001, 250)
     groups = {"p": slice(0, 3), "v": slice(3, 6), "θ": slice(6, 9), "all": slice(0, 15)}
-    nees = {name: np.zeros(len(instants)) for name in groups}
+    ratio = {name: np.zeros(len(instants)) for name in groups}
     for seed in range(runs):
         run = Run(IMU, POSE, 10.0, np.random.default_rng(seed))
         run.start()
@@ -138,15 +138,15 @@ def test_errors_are_as_large_as_the_filter_says() -> None:
                 for name, part in groups.items():
                     P = run.filter.covariance[part, part]
                     value = error[part] @ np.linalg.solve(P, error[part])
-                    nees[name][instants.index(k)] += value / runs
+                    ratio[name][instants.index(k)] += value / runs
     inside = []
     for name, part in groups.items():
         dof = runs * (part.stop - part.start)
         for share, strict in ((0.999, True), (0.95, False)):
             low, high = np.array(chi2.interval(share, dof)) / runs
-            within = (nees[name] > low) & (nees[name] < high)
+            within = (ratio[name] > low) & (ratio[name] < high)
             if strict:
-                assert within.all(), (name, nees[name], low, high)
+                assert within.all(), (name, ratio[name], low, high)
             else:
                 inside.append(within)
     assert np.mean(inside) >= 0.9

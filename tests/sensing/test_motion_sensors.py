@@ -125,7 +125,7 @@ def test_noise_does_not_repeat_and_depends_on_its_generator_alone() -> None:
 
 
 def test_the_filter_trusts_these_sensors_as_much_as_they_deserve() -> None:
-    """NEES of position, velocity and attitude over 20 hovers with a steady turn, 99.9 % band."""
+    """Normalised error squared of p, v, θ over 20 hovers with a steady turn, 99.9 % band."""
     imu_model = ImuModel(
         accel_noise=2e-3,
         gyro_noise=2e-4,
@@ -136,7 +136,7 @@ def test_the_filter_trusts_these_sensors_as_much_as_they_deserve() -> None:
     )
     pose_model = PoseModel(position_noise_m=0.001, attitude_noise_rad=0.003)
     runs, rate = 20, 0.8
-    nees = 0.0
+    ratio = 0.0
     for seed in range(runs):
         rng = np.random.default_rng(seed)
         imu, pose = ImuSensor(imu_model, 250, rng), PoseSensor(pose_model, rng)
@@ -160,6 +160,6 @@ def test_the_filter_trusts_these_sensors_as_much_as_they_deserve() -> None:
         believed = Rotation.from_quat(estimate.q_WB, scalar_first=True)
         turn = believed.inv() * Rotation.from_quat(state.q_WB, scalar_first=True)
         error = np.r_[-estimate.p_WB, -estimate.v_WB_W, turn.as_rotvec()]
-        nees += error @ np.linalg.solve(belief.covariance[:9, :9], error)
+        ratio += error @ np.linalg.solve(belief.covariance[:9, :9], error)
     low, high = chi2.interval(0.999, 9 * runs)
-    assert low < nees < high
+    assert low < ratio < high

@@ -96,7 +96,7 @@ def test_force_that_does_not_last(force: Script, expected: InvalidReason, contac
 
 
 def test_a_short_lift_is_bridged_by_the_mean_and_a_long_one_is_not() -> None:
-    """1.8 N with a gap has a 0.2 s mean of at least 1 N up to a gap of 0.2 s (1 − 1/1.8) = 89 ms."""
+    """At 1.8 N the 0.2 s mean stays above 1 N for lifts of up to 0.2 s (1 − 1/1.8) = 89 ms."""
     short, took = visit(lambda t: 0.0 if 2.0 <= t < 2.08 else 1.8)
     assert short.valid == 1.0
     assert took == pytest.approx(DWELL + FORCE_MEAN_S, abs=0.05)
