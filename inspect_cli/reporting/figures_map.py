@@ -1,0 +1,211 @@
+"""The map of half-cell potentials on each surface that was surveyed."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+
+from inspect_cli.reporting.figure import Figure, Json, words
+from inspect_cli.reporting.palette import ASTM_STYLES, INK, INVALID_STYLE
+from inspect_cli.reporting.points import ReadPoint, by_surface
+from inspect_cli.reporting.potential_scale import (
+    ACTIVE_BELOW_MV,
+    PASSIVE_ABOVE_MV,
+    STEP_MV,
+    colour_axis,
+    colour_bar,
+    colours,
+    hover_text,
+    potential_range,
+    signed,
+)
+from inspect_cli.schema.plan import Plan, PlannedSurface
+
+SAME_LINE_M = 1e-3
+"""Planned points whose coordinate differs by less stand in one row or column."""
+MAX_WRITTEN_VALUES = 80
+MAP_WIDTH_PX = 900.0
+
+
+def map_figures(points: Sequence[ReadPoint], plan: Plan) -> Iterator[Figure]:
+    """A potential map for each surface that was surveyed."""
+    for k, (surface, own) in enumerate(by_surface(points, plan)):
+        yield _map(k, surface, own, points)
+
+
+def _map(
+    k: int,
+    surface: PlannedSurface,
+    points: Sequence[ReadPoint],
+    everywhere: Sequence[ReadPoint],
+) -> Figure:
+    """The map of one surface; the colours of all surfaces share one scale."""
+    scale, ends = colour_axis(everywhere), potential_range(everywhere)
+    valid = [p for p in points if p.point.potential_mv is not None]
+    invalid = [p for p in points if p.point.potential_mv is None]
+    grid = potential_grid(valid)
+    traces = [] if grid is None else _contours(grid, scale, ends)
+    traces += _valid_markers(valid, everywhere) + _invalid_markers(invalid)
+    (u_low, u_high), (v_low, v_high) = (_span(points, axis) for axis in (0, 1))
+    height_px = MAP_WIDTH_PX * (v_high - v_low) / (u_high - u_low)
+    layout: Json = {
+        "coloraxis": scale,
+        "margin": {"t": 44, "r": 20},
+        "hovermode": "closest",
+        "xaxis": {"title": {"text": "u (m)"}, "range": [u_low, u_high], "constrain": "domain"},
+        "yaxis": {
+            "title": {"text": "v (m)"},
+            "range": [v_low, v_high],
+            "scaleanchor": "x",
+            "constrain": "domain",
+        },
+    }
+    shown = (
+        "Contours are interpolated linearly between neighbouring valid readings, "
+        f"one every {STEP_MV:g} mV; the heavy lines are the class boundaries. "
+        if grid is not None
+        else ""
+    )
+    return Figure(
+        f"map-{k + 1}",
+        f"Half-cell potential on surface “{surface.name}” in mV against copper/copper sulphate, "
+        "at the planned points, seen from the side that was touched (on a wall u runs to the "
+        f"right, v up). {shown}Crosses are invalid readings; they carry no value.",
+        f"Map of {len(valid)} valid and {len(invalid)} invalid half-cell readings.",
+        traces,
+        layout,
+        int(min(max(height_px, 260.0), 640.0)),
+    )
+
+
+def _span(points: Sequence[ReadPoint], axis: int) -> tuple[float, float]:
+    """The drawn stretch of u or v: the points with room around them, never a mere line."""
+    other = [p.point.uv_m[1 - axis] for p in points if p.point.uv_m]
+    own = [p.point.uv_m[axis] for p in points if p.point.uv_m]
+    widest = max(max(own) - min(own), max(other) - min(other), 0.1)
+    room = 0.12 * widest
+    return min(own) - room, max(own) + room
+
+
+def potential_grid(
+    points: Sequence[ReadPoint],
+) -> tuple[list[float], list[float], list[list[float | None]]] | None:
+    """(u, v, potentials by row) if the points stand in at least two rows and two columns.
+
+    Nodes without a valid reading are None, and nothing is drawn across them. Points that do
+    not share rows and columns give None: a contour would be invented.
+    """
+    places = [(p.point.uv_m, p.point.potential_mv) for p in points if p.point.uv_m is not None]
+    columns = _lines([uv[0] for uv, _ in places])
+    rows = _lines([uv[1] for uv, _ in places])
+    if len(columns) < 2 or len(rows) < 2 or len(columns) * len(rows) > 2 * len(places):
+        return None
+    table: list[list[float | None]] = [[None] * len(columns) for _ in rows]
+    for uv, potential in places:
+        table[_nearest(rows, uv[1])][_nearest(columns, uv[0])] = potential
+    return columns, rows, table
+
+
+def _lines(values: Sequence[float]) -> list[float]:
+    lines: list[float] = []
+    for value in sorted(values):
+        if not lines or value - lines[-1] > SAME_LINE_M:
+            lines.append(value)
+    return lines
+
+
+def _nearest(lines: Sequence[float], value: float) -> int:
+    return min(range(len(lines)), key=lambda k: abs(lines[k] - value))
+
+
+def _contours(
+    grid: tuple[list[float], list[float], list[list[float | None]]],
+    scale: Json,
+    ends: tuple[float, float],
+) -> list[Json]:
+    u, v, table = grid
+    base: Json = {"type": "contour", "x": u, "y": v, "z": table, "hoverinfo": "skip"}
+    filled = {
+        **base,
+        "autocontour": False,
+        "contours": {"start": ends[0], "end": ends[1], "size": STEP_MV},
+        "line": {"width": 0.5, "color": "#ffffff", "smoothing": 0},
+        "colorscale": scale["colorscale"],
+        "zmin": ends[0],
+        "zmax": ends[1],
+        "showscale": False,
+        "opacity": 0.75,
+    }
+    boundary = {
+        **base,
+        "autocontour": False,
+        "contours": {
+            "coloring": "none",
+            "start": ACTIVE_BELOW_MV,
+            "end": PASSIVE_ABOVE_MV,
+            "size": PASSIVE_ABOVE_MV - ACTIVE_BELOW_MV,
+            "showlabels": True,
+            "labelfont": {"size": 11, "color": INK},
+        },
+        "line": {"width": 1.6, "color": INK, "smoothing": 0},
+        "showlegend": False,
+    }
+    return [filled, boundary]
+
+
+def _valid_markers(points: Sequence[ReadPoint], everywhere: Sequence[ReadPoint]) -> list[Json]:
+    written = len(points) <= MAX_WRITTEN_VALUES
+    traces = [colour_bar("scatter")] if points else []
+    for name, style in ASTM_STYLES.items():
+        own = [p for p in points if p.point.astm_class == name]
+        if not own:
+            continue
+        traces.append(
+            {
+                **_markers(own, style.symbol, 15),
+                "name": f"{style.label} (ASTM C876)",
+                "mode": "markers+text" if written else "markers",
+                "text": [_written(p) for p in own],
+                "marker": {
+                    "symbol": style.symbol,
+                    "size": 15,
+                    "color": colours(own, everywhere),
+                    "line": {"width": 1.2, "color": INK},
+                },
+                "customdata": [hover_text(p) for p in own],
+            }
+        )
+    return traces
+
+
+def _invalid_markers(points: Sequence[ReadPoint]) -> list[Json]:
+    if not points:
+        return []
+    style = INVALID_STYLE
+    return [
+        {
+            **_markers(points, style.symbol, 12),
+            "name": style.label,
+            "mode": "markers+text",
+            "text": [f"<b>{words(p.point.label)}</b>" for p in points],
+            "customdata": [
+                words(f"{p.point.label}: no valid reading, {p.point.reason}") for p in points
+            ],
+        }
+    ]
+
+
+def _markers(points: Sequence[ReadPoint], symbol: str, size: int) -> Json:
+    return {
+        "type": "scatter",
+        "x": [p.point.uv_m[0] for p in points if p.point.uv_m],
+        "y": [p.point.uv_m[1] for p in points if p.point.uv_m],
+        "textposition": "top center",
+        "textfont": {"size": 11, "color": INK},
+        "cliponaxis": False,
+        "marker": {"symbol": symbol, "size": size, "color": INK, "line": {"width": 2}},
+        "hovertemplate": "%{customdata}<extra></extra>",
+    }
+
+
+def _written(p: ReadPoint) -> str:
+    return f"<b>{words(p.point.label)}</b><br>{signed(p.point.potential_mv)}"

@@ -1,0 +1,148 @@
+"""One meaning, one colour, on the whole page. Colours after Okabe & Ito, Color Universal Design
+(2008): they stay apart for all common kinds of colour blindness. Nothing is told by colour alone:
+lines differ in dash, classes in marker shape, verdicts in words.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+from inspect_cli.records import Mode
+
+INK = "#1f2328"
+MUTED = "#59636e"
+RULE = "#d1d9e0"
+GRID = "#e8ecf0"
+PAPER = "#ffffff"
+CONTACT_SHADE = "rgba(89, 99, 110, 0.13)"
+
+BLACK = "#000000"
+ORANGE = "#e69f00"
+SKY_BLUE = "#56b4e9"
+GREEN = "#009e73"
+BLUE = "#0072b2"
+VERMILLION = "#d55e00"
+PURPLE = "#cc79a7"
+
+FONT = 'system-ui, -apple-system, "Segoe UI", Roboto, "Helvetica Neue", Arial, sans-serif'
+
+
+@dataclass(frozen=True)
+class LineStyle:
+    """How a signal is drawn in every figure, with the name that the legend gives it."""
+
+    label: str
+    colour: str
+    dash: str = "solid"
+    width: float = 1.4
+
+
+REFERENCE = LineStyle("reference", INK, "dot", 1.3)
+TIP = LineStyle("tool's tip", "#7fceb9", "solid", 1.0)
+ESTIMATE = LineStyle("estimate", BLUE, "solid", 1.4)
+TRUTH = LineStyle("truth", GREEN, "solid", 1.8)
+SENSOR = LineStyle("load cell", PURPLE, "solid", 1.2)
+COMMAND = LineStyle("command", MUTED, "dot", 1.0)
+TRACKING_ERROR = LineStyle("truth − reference", GREEN, "solid", 1.4)
+BELIEVED_ERROR = LineStyle("estimate − reference", BLUE, "solid", 1.4)
+ESTIMATION_ERROR = LineStyle("estimate − truth", PURPLE, "solid", 1.2)
+SATURATED = LineStyle("saturated", VERMILLION, "solid", 1.0)
+
+
+@dataclass(frozen=True)
+class ClassStyle:
+    """How a class of points is drawn."""
+
+    label: str
+    colour: str
+    symbol: str
+
+
+ASTM_STYLES = {
+    "passive": ClassStyle("passive", SKY_BLUE, "circle"),
+    "uncertain": ClassStyle("uncertain", ORANGE, "square"),
+    "active": ClassStyle("active", VERMILLION, "diamond"),
+}
+CORROSION_STYLES = {
+    "none": ClassStyle("none", SKY_BLUE, "circle"),
+    "possible": ClassStyle("possible", ORANGE, "square"),
+    "active": ClassStyle("active", VERMILLION, "diamond"),
+}
+INVALID_STYLE = ClassStyle("invalid reading", INK, "x-thin")
+
+MODE_COLOURS = {
+    Mode.IDLE: "#c4ccd4",
+    Mode.TAKEOFF: "#8c96a0",
+    Mode.TRANSIT: SKY_BLUE,
+    Mode.APPROACH: BLUE,
+    Mode.PRESS: INK,
+    Mode.RETREAT: BLUE,
+    Mode.LAND: "#8c96a0",
+    Mode.LANDED: "#c4ccd4",
+    Mode.HOVER: VERMILLION,
+}
+
+POTENTIAL_STOPS = {
+    "passive": ("#edf5fb", "#93c7ea"),
+    "uncertain": ("#f8dd9b", "#e69f00"),
+    "active": ("#d55e00", "#5e2600"),
+}
+"""Colours of a potential map from a class's least to its most negative potential; they darken
+towards corrosion, so that the map keeps its order when printed in grey."""
+
+
+def css_variables() -> str:
+    """The colours for the style sheet, which has none of its own."""
+    colours = {
+        "ink": INK,
+        "muted": MUTED,
+        "rule": RULE,
+        "grid": GRID,
+        "paper": PAPER,
+        "accent": BLUE,
+        "good": GREEN,
+        "bad": VERMILLION,
+        "warn": ORANGE,
+        "passive": SKY_BLUE,
+        "uncertain": ORANGE,
+        "active": VERMILLION,
+    }
+    lines = "".join(f"--{name}: {colour};" for name, colour in colours.items())
+    return f":root{{{lines}--font: {FONT};}}\n"
+
+
+def plot_template() -> dict[str, Any]:
+    """The defaults of every figure, in plotly's own form of a template."""
+    axis = {
+        "gridcolor": GRID,
+        "linecolor": RULE,
+        "zeroline": False,
+        "ticks": "outside",
+        "tickcolor": RULE,
+        "ticklen": 4,
+        "automargin": True,
+        "title": {"standoff": 6, "font": {"size": 12, "color": MUTED}},
+        "tickfont": {"size": 11, "color": MUTED},
+    }
+    scene_axis = {"gridcolor": RULE, "backgroundcolor": "#f6f8fa", "zeroline": False}
+    layout = {
+        "font": {"family": FONT, "size": 12, "color": INK},
+        "paper_bgcolor": PAPER,
+        "plot_bgcolor": PAPER,
+        "margin": {"l": 56, "r": 12, "t": 34, "b": 42},
+        "hoverlabel": {"font": {"family": FONT, "size": 12}},
+        "legend": {
+            "orientation": "h",
+            "x": 0,
+            "xanchor": "left",
+            "y": 1,
+            "yanchor": "bottom",
+            "font": {"size": 12},
+        },
+        "modebar": {"bgcolor": "rgba(255,255,255,0.8)", "color": MUTED, "activecolor": BLUE},
+        "xaxis": axis,
+        "yaxis": axis,
+        "scene": {"xaxis": scene_axis, "yaxis": scene_axis, "zaxis": scene_axis},
+    }
+    return {"layout": layout}

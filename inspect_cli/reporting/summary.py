@@ -1,0 +1,150 @@
+"""What a reader must know who reads nothing else: finding, key figures, caveats."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from inspect_cli.log.reader import RunLog
+from inspect_cli.reporting.markup import Markup, element, joined
+from inspect_cli.reporting.points import ReadPoint
+from inspect_cli.reporting.table import NOTHING, number
+from inspect_cli.schema.plan import Plan
+from inspect_cli.schema.result import Result
+
+STATUS_WORDS = {
+    "completed": "The flight was completed.",
+    "aborted": "The flight was aborted.",
+    "diverged": "The simulation diverged: the flight is not to be used.",
+    "interrupted": "The log was cut off: what follows ends there.",
+}
+
+
+def finding(result: Result, points: Sequence[ReadPoint]) -> list[str]:
+    """The finding in sentences: how much is valid, what corrodes, how the flight ended."""
+    sentences = [_validity(points), *_corrosion(points)]
+    if result.status != "completed":
+        reason = f" Reason: {result.status_reason}." if result.status_reason else ""
+        sentences.append(STATUS_WORDS[result.status] + reason)
+    return sentences
+
+
+def _validity(points: Sequence[ReadPoint]) -> str:
+    valid = sum(p.point.valid for p in points)
+    if not points:
+        return "The plan asks for no reading."
+    return f"{valid} of {len(points)} readings {'is' if valid == 1 else 'are'} valid."
+
+
+def _corrosion(points: Sequence[ReadPoint]) -> list[str]:
+    read = [p.point for p in points if p.point.potential_mv is not None]
+    if not read:
+        return ["Without a valid reading nothing can be said about corrosion."] if points else []
+    active = [point.label for point in read if point.corrosion == "active"]
+    possible = [point.label for point in read if point.corrosion == "possible"]
+    sentences = []
+    if active:
+        sentences.append(f"Active corrosion is indicated at {_points(active)}.")
+    if possible:
+        also = "Corrosion is possible" if active else "No active corrosion; it is possible"
+        sentences.append(f"{also} at {_points(possible)}.")
+    if not active and not possible:
+        sentences.append("No valid reading indicates corrosion.")
+    worst = min(read, key=lambda point: point.potential_mv or 0.0)
+    sentences.append(
+        f"The most negative potential is {number(worst.potential_mv, 0)} mV CSE "
+        f"at point {worst.label}."
+    )
+    return sentences
+
+
+def _points(labels: Sequence[str]) -> str:
+    if len(labels) == 1:
+        return f"point {labels[0]}"
+    return f"points {', '.join(labels[:-1])} and {labels[-1]}"
+
+
+def key_figures(result: Result, plan: Plan, points: Sequence[ReadPoint]) -> Markup:
+    """The numbers that stand in the boxes under the finding."""
+    read = [p.point for p in points if p.point.potential_mv is not None]
+    potentials = [point.potential_mv for point in read if point.potential_mv is not None]
+    passed = sum(check.verdict == "pass" for check in result.checks)
+    boxes = [
+        ("valid readings", f"{sum(p.point.valid for p in points)} / {len(points)}", ""),
+        ("active points", str(sum(p.corrosion == "active" for p in read)), ""),
+        ("most negative", number(min(potentials, default=None), 0), "mV CSE"),
+        ("acceptance checks passed", f"{passed} / {len(result.checks)}", ""),
+        ("planned flight", number(plan.duration_s, 0), "s"),
+    ]
+    return element(
+        "ul",
+        *(
+            element(
+                "li",
+                element("span", value, class_="value"),
+                element("span", f" {unit}" if unit else "", class_="unit"),
+                element("span", name, class_="name"),
+            )
+            for name, value, unit in boxes
+        ),
+        class_="boxes",
+    )
+
+
+def is_simulated(log: RunLog) -> bool:
+    """Whether the log came from the simulator: it then carries the seed and the truth."""
+    return log.seed is not None or log.truth() is not None
+
+
+def caveats(log: RunLog, points: Sequence[ReadPoint]) -> Markup:
+    """What the numbers do not say."""
+    simulated = (
+        "This is a simulated flight. The readings come from a model of the specimen and of the "
+        "probe, not from a structure.",
+    )
+    always = (
+        "ASTM C876 leaves the interpretation to a specialist who also knows the chloride "
+        "content, the depth of carbonation, delamination, the rate of corrosion and the "
+        "exposure of the structure. Potentials alone do not give the rate or the loss of steel.",
+        "The class boundaries hold for uncoated steel in concrete that is not saturated; very "
+        "dry, carbonated or water-saturated concrete and coated bars shift the potentials.",
+        "Potentials are against copper/copper sulphate (CSE) and are not corrected for "
+        "temperature.",
+        "A reading is valid only after sufficient force for sufficient time and a stable "
+        "potential. Invalid points are shown as such, never as values, and enter no statistics.",
+    )
+    few = ("With fewer than 20 valid readings, shares and cumulative frequencies are coarse.",)
+    read = sum(p.point.potential_mv is not None for p in points)
+    notes = (*(simulated if is_simulated(log) else ()), *always, *(few if 0 < read < 20 else ()))
+    return element("ul", *(element("li", note) for note in notes), class_="caveats")
+
+
+def method(log: RunLog, plan: Plan) -> list[tuple[str, str]]:
+    """How the readings were taken, in the order of an inspection report."""
+    probe = log.platform().sensors.half_cell
+    dwells = sorted({target.dwell_s for target in plan.targets if target.kind == "contact"})
+    presses = sorted({target.press_m for target in plan.targets if target.kind == "contact"})
+    forces = [target.expected_force_n for target in plan.targets if target.kind == "contact"]
+    return [
+        ("Method", "half-cell potential (ASTM C876) and resistance at each point of contact"),
+        ("Reference electrode", "copper/copper sulphate (CSE)"),
+        (
+            "A reading counts when",
+            f"the load cell shows ≥ {probe.min_force_n:g} N for ≥ {probe.min_contact_s:g} s and "
+            f"the potential stays within {1e3 * probe.stable_v:g} mV over {probe.stable_s:g} s",
+        ),
+        ("Cell constant", f"{probe.cell_constant_m:g} m (resistivity = resistance × constant)"),
+        ("Set-point behind the surface", _each(presses, "m")),
+        ("Dwell", _each(dwells, "s")),
+        ("Expected contact force", f"{number(max(forces), 2)} N" if forces else NOTHING),
+        ("Cable", f"{probe.cable_m:g} m; the farthest point needs {number(plan.cable_m, 2)} m"),
+    ]
+
+
+def _each(values: Sequence[float], unit: str) -> str:
+    return f"{', '.join(f'{value:g}' for value in values)} {unit}" if values else NOTHING
+
+
+def finding_markup(sentences: Sequence[str]) -> Markup:
+    """The finding as one paragraph, its first sentence standing out."""
+    first, *rest = sentences
+    return element("p", element("strong", first), joined(" ", " ".join(rest)), class_="finding")

@@ -1,0 +1,276 @@
+"""The tables of the report."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Sequence
+
+from inspect_cli.log.reader import RunLog
+from inspect_cli.metrics.catalogue import METRICS
+from inspect_cli.reporting.markup import Markup, element, joined
+from inspect_cli.reporting.points import ReadPoint
+from inspect_cli.reporting.table import (
+    NOTHING,
+    Column,
+    chip,
+    number,
+    significant,
+    table,
+)
+from inspect_cli.schema.plan import Plan
+from inspect_cli.schema.result import Check, PointResult, Result
+
+VERDICT_WORDS = {
+    "pass": "✓ pass",
+    "fail": "✗ fail",
+    "fail-known": "! known failure",
+    "not_measured": "– not measured",
+}
+ASTM_ROWS = (
+    ("passive", "E > −200 mV", "more than 90 % that no reinforcement corrodes"),
+    ("uncertain", "−350 mV ≤ E ≤ −200 mV", "not decided by the potential"),
+    ("active", "E < −350 mV", "more than 90 % that reinforcement corrodes"),
+)
+CORROSION_ROWS = ("none", "possible", "active")
+TRUE_FIELDS = (
+    "true_force_n",
+    "true_force_peak_n",
+    "position_error_m",
+    "true_potential_mv",
+    "true_corrosion",
+)
+
+
+def checks_table(checks: Sequence[Check]) -> Markup:
+    """Every acceptance entry with its bounds, the published row it answers, and our value."""
+    columns = [
+        Column("Check"),
+        Column("Reference"),
+        Column("Required", numeric=True),
+        Column("Measured", numeric=True),
+        Column("Unit"),
+        Column("Verdict"),
+        Column("Remark"),
+    ]
+    return table(
+        "Acceptance checks: what the mission requires, the row of the ledger of published results "
+        "that a check answers for, and what this flight measured.",
+        columns,
+        [_check_row(check) for check in checks],
+    )
+
+
+def _check_row(check: Check) -> list[str]:
+    over = f"relative to {check.over}" if check.over else ""
+    return [
+        joined(_meaning(check.metric), Markup(" "), element("code", check.metric)),
+        check.ref or NOTHING,
+        bounds(check.min, check.max),
+        significant(check.value),
+        _unit(check.unit),
+        chip(VERDICT_WORDS[check.verdict], check.verdict),
+        "; ".join(part for part in (over, check.reason) if part),
+    ]
+
+
+def bounds(low: float | None, high: float | None) -> str:
+    """A required interval in words: ≥, ≤, = or both ends."""
+    if low is not None and high is not None:
+        if low == high:
+            return f"= {significant(low)}"
+        return f"{significant(low)} … {significant(high)}"
+    return f"≥ {significant(low)}" if low is not None else f"≤ {significant(high)}"
+
+
+def points_table(points: Sequence[ReadPoint]) -> Markup:
+    """Every point: where, what was read, what it means, how it was touched."""
+    columns = [
+        Column("Point"),
+        Column("Surface"),
+        Column("u", "m", numeric=True),
+        Column("v", "m", numeric=True),
+        Column("Potential", "mV CSE", numeric=True),
+        Column("ASTM C876"),
+        Column("Resistance", "Ω", numeric=True),
+        Column("Resistivity", "Ω·m", numeric=True),
+        Column("Corrosion", "combined"),
+        Column("Probe force", "N", numeric=True),
+        Column("Contact", "s", numeric=True),
+        Column("Validity"),
+    ]
+    return table("Readings by point.", columns, [_point_row(p) for p in points], wide=True)
+
+
+def _point_row(p: ReadPoint) -> list[str]:
+    point = p.point
+    u, v = point.uv_m or (None, None)
+    return [
+        point.label,
+        p.surface or NOTHING,
+        number(u, 3),
+        number(v, 3),
+        number(point.potential_mv, 0),
+        _class_chip(point.astm_class),
+        number(point.resistance_ohm, 0),
+        number(point.resistivity_ohm_m, 0),
+        _class_chip(point.corrosion),
+        number(point.probe_force_n, 2),
+        number(point.contact_s, 1),
+        "valid" if point.valid else chip(f"invalid: {point.reason}", "fail"),
+    ]
+
+
+def truth_table(points: Sequence[ReadPoint]) -> Markup:
+    """What a simulation knows of each point beside what was read; empty without truth."""
+    if all(getattr(p.point, field) is None for p in points for field in TRUE_FIELDS):
+        return Markup("")
+    columns = [
+        Column("Point"),
+        Column("Potential read", "mV CSE", numeric=True),
+        Column("true", "mV CSE", numeric=True),
+        Column("Resistivity read", "Ω·m", numeric=True),
+        Column("true", "Ω·m", numeric=True),
+        Column("Corrosion read"),
+        Column("true"),
+        Column("Normal force", "N, mean of last 2 s", numeric=True),
+        Column("Peak", "N", numeric=True),
+        Column("Off target", "mm", numeric=True),
+    ]
+    return table(
+        "Readings against the truth of the simulation, which no part of the vehicle could see.",
+        columns,
+        [_truth_row(p.point) for p in points],
+        wide=True,
+    )
+
+
+def _truth_row(point: PointResult) -> list[str]:
+    off_m = point.position_error_m
+    return [
+        point.label,
+        number(point.potential_mv, 0),
+        number(point.true_potential_mv, 0),
+        number(point.resistivity_ohm_m, 0),
+        number(point.true_resistivity_ohm_m, 0),
+        _class_chip(point.corrosion),
+        _class_chip(point.true_corrosion),
+        number(point.true_force_n, 2),
+        number(point.true_force_peak_n, 2),
+        number(None if off_m is None else 1e3 * off_m, 1),
+    ]
+
+
+def _class_chip(name: str | None) -> str:
+    """The class in words with its colour; ``none`` corrosion has the passive class's."""
+    if name is None:
+        return NOTHING
+    kind = {"none": "passive", "possible": "uncertain"}.get(name, name)
+    return chip(name, kind)
+
+
+def classes_table(points: Sequence[ReadPoint]) -> Markup:
+    """How many valid readings fall in each class of ASTM C876."""
+    counts = Counter[str](p.point.astm_class for p in points if p.point.astm_class is not None)
+    total = sum(counts.values())
+    rows = [
+        [
+            chip(name, name),
+            limits,
+            meaning,
+            str(counts[name]),
+            f"{100 * counts[name] / total:.0f} %" if total else NOTHING,
+        ]
+        for name, limits, meaning in ASTM_ROWS
+    ]
+    invalid = sum(1 for p in points if p.point.astm_class is None)
+    rows.append(["invalid", NOTHING, "no value; not counted in the shares", str(invalid), NOTHING])
+    columns = [
+        Column("Class"),
+        Column("Potential against CSE"),
+        Column("Probability at the time of measurement"),
+        Column("Readings", numeric=True),
+        Column("Share", numeric=True),
+    ]
+    return table("Classes of ASTM C876 (numeric magnitude technique).", columns, rows)
+
+
+def verdicts_table(points: Sequence[ReadPoint]) -> Markup:
+    """How many valid readings have each combined verdict, and which."""
+    rows = []
+    for name in CORROSION_ROWS:
+        own = [p.point.label for p in points if p.point.corrosion == name]
+        rows.append([_class_chip(name), str(len(own)), ", ".join(own) or NOTHING])
+    columns = [Column("Corrosion"), Column("Readings", numeric=True), Column("Points")]
+    return table("Combined verdict of potential and resistivity.", columns, rows)
+
+
+def metrics_table(caption: str, result: Result, groups: Sequence[str]) -> Markup:
+    """The result's metrics of some groups, the part of a name before its dot; empty without."""
+    rows = [
+        [
+            "; not measured: ".join(part for part in (_meaning(name), metric.why) if part),
+            significant(metric.value),
+            _unit(metric.unit),
+            element("code", name),
+        ]
+        for name, metric in result.metrics.items()
+        if name.split(".")[0] in groups
+    ]
+    if not rows:
+        return Markup("")
+    columns = [Column("Metric"), Column("Value", numeric=True), Column("Unit"), Column("Name")]
+    return table(caption, columns, rows)
+
+
+def _unit(unit: str) -> str:
+    return "" if unit == "1" else unit
+
+
+def _meaning(metric: str) -> str:
+    spec = METRICS.get(metric)
+    return spec.meaning if spec else ""
+
+
+def fits_table(plan: Plan) -> Markup:
+    """How well each fitted surface explains its points."""
+    rows = []
+    for surface in plan.surfaces:
+        fit = surface.fit
+        if fit is None:
+            rows.append([surface.name, surface.shape.kind, "given", *[NOTHING] * 4])
+            continue
+        deviations = [
+            f"{name} ± {significant(sd, 2)}" for name, sd in sorted(fit.parameter_sd.items())
+        ]
+        rows.append(
+            [
+                surface.name,
+                surface.shape.kind,
+                f"{surface.source}; {fit.method}",
+                number(fit.points, 0),
+                number(100.0 * fit.inlier_share, 1),
+                number(1e3 * fit.rms_m, 2),
+                ", ".join(deviations) or NOTHING,
+            ]
+        )
+    columns = [
+        Column("Surface"),
+        Column("Shape"),
+        Column("Source and method"),
+        Column("Points", numeric=True),
+        Column("Inliers", "%", numeric=True),
+        Column("RMS", "mm", numeric=True),
+        Column("Standard deviations of the parameters"),
+    ]
+    return table("Surfaces as the planner believed them.", columns, rows)
+
+
+def events_table(log: RunLog, most: int = 200) -> Markup:
+    """What the vehicle said during the flight."""
+    if not log.events:
+        return Markup("")
+    rows = [[number(event.t_s, 2), str(event.level), event.text] for event in log.events[:most]]
+    columns = [Column("Time", "s", numeric=True), Column("Level"), Column("Event")]
+    left_out = len(log.events) - len(rows)
+    caption = "Events." if left_out <= 0 else f"Events; {left_out} later ones are in the log."
+    return table(caption, columns, rows)

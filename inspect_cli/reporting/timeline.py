@@ -1,0 +1,178 @@
+"""Figures over time: panels on one time axis, thinned for the screen, contacts shaded."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from inspect_cli.records import Mode
+from inspect_cli.reporting.figure import Figure, Json, merged, numbers, words
+from inspect_cli.reporting.palette import CONTACT_SHADE, MUTED, LineStyle
+from inspect_cli.schema.plan import Plan
+from inspect_cli.spatial.types import Structured, Vector
+
+BUCKETS = 800
+"""Buckets per line; each keeps its smallest and largest sample. About one per pixel."""
+MAX_LABELLED_PHASES = 40
+PANEL_GAP_PX = 14
+TOP_PX = 64
+BOTTOM_PX = 44
+
+
+@dataclass(frozen=True)
+class Phase:
+    """A stretch of time in contact, and the label of the point that was touched."""
+
+    start_s: float
+    end_s: float
+    label: str
+
+
+@dataclass(frozen=True)
+class Line:
+    """One signal: times (n,), values (n,), and how it looks."""
+
+    t_s: Vector
+    values: Vector
+    style: LineStyle
+    extra: Json | None = None
+    """Entries of the plotly trace that differ from a plain line's."""
+
+
+@dataclass(frozen=True)
+class Panel:
+    """Signals that share a value axis."""
+
+    title: str
+    lines: Sequence[Line]
+    axis: Json | None = None
+    """Entries of the plotly axis that differ from the defaults."""
+    height_px: int = 120
+
+
+def thinned(t_s: Vector, values: Vector) -> tuple[Vector, Vector]:
+    """At most two samples per bucket of equal sample count: its smallest and its largest.
+
+    Unlike a plain stride this keeps every peak. A bucket that holds nothing but NaN stays a
+    gap. Shorter series are returned as they are.
+    """
+    n = len(t_s)
+    if n <= 2 * BUCKETS:
+        return t_s, values
+    size = -(-n // BUCKETS)
+    starts = np.arange(0, n, size)
+    padded = np.full(len(starts) * size, np.nan)
+    padded[:n] = values
+    rows = padded.reshape(-1, size)
+    lowest = np.where(np.isnan(rows), np.inf, rows).argmin(axis=1)
+    highest = np.where(np.isnan(rows), -np.inf, rows).argmax(axis=1)
+    keep = np.unique(np.concatenate([starts + lowest, starts + highest]))
+    return t_s[keep], values[keep]
+
+
+def contact_phases(reference: Structured | None, plan: Plan) -> tuple[Phase, ...]:
+    """The stretches in which the executive was pressing, with the label of their point."""
+    if reference is None:
+        return ()
+    pressing = reference["mode"] == Mode.PRESS
+    edges = np.flatnonzero(np.diff(np.concatenate([[False], pressing, [False]]).astype(np.int8)))
+    t_s = reference["t_s"]
+    labels = {target.index: target.label for target in plan.targets}
+    return tuple(
+        Phase(
+            float(t_s[first]),
+            float(t_s[min(end, len(t_s) - 1)]),
+            labels.get(int(reference["target"][first]), ""),
+        )
+        for first, end in edges.reshape(-1, 2)
+    )
+
+
+def stacked(
+    name: str,
+    caption: str,
+    description: str,
+    panels: Sequence[Panel],
+    phases: Sequence[Phase],
+) -> Figure:
+    """Panels one under the other on one time axis."""
+    heights = np.array([panel.height_px for panel in panels], dtype=float)
+    drawn_px = heights.sum() + PANEL_GAP_PX * (len(panels) - 1)
+    tops = drawn_px - np.concatenate([[0.0], np.cumsum(heights + PANEL_GAP_PX)[:-1]])
+    traces: list[Json] = []
+    layout: Json = {
+        "margin": {"t": TOP_PX, "b": BOTTOM_PX},
+        "hovermode": "x unified",
+        "hoversubplots": "axis",
+        "legend": {"y": 1.0 + 20.0 / drawn_px},
+        "shapes": [_shade(phase) for phase in phases],
+        "annotations": _phase_labels(phases),
+        "xaxis": {"title": {"text": "time (s)"}, "anchor": _axis(len(panels) - 1)},
+    }
+    shown: set[str] = set()
+    for k, (panel, top, height) in enumerate(zip(panels, tops, heights, strict=True)):
+        domain = [max(0.0, float((top - height) / drawn_px)), float(top / drawn_px)]
+        axis = {"title": {"text": panel.title}, "domain": domain, "nticks": 5}
+        layout["yaxis" if k == 0 else f"yaxis{k + 1}"] = merged(axis, panel.axis or {})
+        for line in panel.lines:
+            traces.append(_trace(line, _axis(k), line.style.label not in shown))
+            shown.add(line.style.label)
+    height_px = int(drawn_px) + TOP_PX + BOTTOM_PX
+    return Figure(name, caption, description, traces, layout, height_px, timed=True)
+
+
+def _axis(panel: int) -> str:
+    return "y" if panel == 0 else f"y{panel + 1}"
+
+
+def _trace(line: Line, axis: str, in_legend: bool) -> Json:
+    t_s, values = thinned(np.asarray(line.t_s), np.asarray(line.values))
+    style = line.style
+    trace: Json = {
+        "type": "scatter",
+        "mode": "lines",
+        "name": words(style.label),
+        "legendgroup": words(style.label),
+        "showlegend": in_legend,
+        "x": numbers(t_s),
+        "y": numbers(values),
+        "yaxis": axis,
+        "connectgaps": False,
+        "line": {"color": style.colour, "dash": style.dash, "width": style.width},
+    }
+    return merged(trace, line.extra or {})
+
+
+def _shade(phase: Phase) -> Json:
+    return {
+        "type": "rect",
+        "xref": "x",
+        "yref": "paper",
+        "x0": phase.start_s,
+        "x1": phase.end_s,
+        "y0": 0,
+        "y1": 1,
+        "fillcolor": CONTACT_SHADE,
+        "line": {"width": 0},
+        "layer": "below",
+    }
+
+
+def _phase_labels(phases: Sequence[Phase]) -> list[Json]:
+    if len(phases) > MAX_LABELLED_PHASES:
+        return []
+    return [
+        {
+            "text": words(phase.label),
+            "x": 0.5 * (phase.start_s + phase.end_s),
+            "y": 1,
+            "xref": "x",
+            "yref": "paper",
+            "yanchor": "bottom",
+            "showarrow": False,
+            "font": {"size": 10, "color": MUTED},
+        }
+        for phase in phases
+    ]
