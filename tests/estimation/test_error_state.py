@@ -120,7 +120,7 @@ class Run:
 
 
 def test_errors_are_as_large_as_the_filter_says() -> None:
-    """Normalised estimation error squared, average of 50 runs. Every check is a draw from χ²(50 · dof) / 50.
+    """Normalised estimation error squared, mean of 50 runs: draws from χ²(50 · dof) / 50 each.
 
     All have to lie in the 99.9 % band, nine in ten in the 95 % band, and so has the whole state
     at the end of the flight.
