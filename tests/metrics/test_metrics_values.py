@@ -133,7 +133,7 @@ def test_a_log_without_rows_or_truth_measures_nothing_of_the_flight(
 
 
 def test_tracking_leaves_out_contact_and_half_a_second_around_it(flight: SyntheticFlight) -> None:
-    state, reference = flight.rows(State), flight.rows(Reference)
+    state = flight.rows(State)
     edges = np.flatnonzero(np.diff(state["f_normal"] > 0.1))
     times, first, last = state["t_s"], state["t_s"][edges[::2] + 1], state["t_s"][edges[1::2]]
     assert len(first) == len(last) == 9
@@ -141,7 +141,7 @@ def test_tracking_leaves_out_contact_and_half_a_second_around_it(flight: Synthet
     state["p_WT"][apart <= 0.495] += 1.0
     assert value(flight, "tracking.position_rmse_x_m") == pytest.approx(0.003, rel=1e-9)
     # One row more than half a second away counts; its error of 1 m alone gives 1/√n.
-    row = int(np.flatnonzero((apart > 0.505) & (reference["mode"] == Mode.TRANSIT))[0])
+    row = int(np.flatnonzero((apart > 0.505) & (apart < 0.515))[0])
     state["p_WT"][row, 0] += 1.0
     assert value(flight, "tracking.position_rmse_x_m") > 1.0 / math.sqrt(len(state))
 
@@ -246,6 +246,12 @@ def test_wrong_verdict_is_a_mismatch(flight: SyntheticFlight) -> None:
     assert value(flight, "half_cell.map_mismatches") == 1
     assert value(flight, "half_cell.active_mask") == 2
     assert value(flight, "half_cell.potential_error_max_v") == pytest.approx(0.12)
+
+
+def test_a_point_without_any_verdict_is_a_mismatch(flight: SyntheticFlight) -> None:
+    flight.rows(State)["f_normal"][flight.rows(Reference)["target"] == 8] = 0.0
+    flight.channels[Reading.topic] = flight.rows(Reading)[:8]
+    assert value(flight, "half_cell.map_mismatches") == 1
 
 
 def test_no_specimen_no_comparison(flight: SyntheticFlight) -> None:
