@@ -29,7 +29,7 @@ from inspect_cli.schema.result import Status
 from inspect_cli.spatial.types import Vector
 
 SETTLE_S = 1.0
-"""On the ground before take-off, for the filter to find its biases."""
+"""On the ground before take-off, for the filter to find its biases, and after landing."""
 PAUSE_S = 0.2
 """At rest at the end of each stretch before the next begins."""
 SAFE_HOVER_S = 3.0
@@ -184,7 +184,7 @@ class Executive:
         if self.mode == Mode.HOVER:
             return t_s - self._since_s >= SAFE_HOVER_S
         if self.mode == Mode.LANDED:
-            return t_s - self._since_s >= PAUSE_S
+            return t_s - self._since_s >= SETTLE_S
         if self.mode == Mode.PRESS:
             return self._judge is not None and self._judge.done(t_s)
         if self._waiting_for_surface:

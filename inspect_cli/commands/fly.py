@@ -58,7 +58,7 @@ def fly(
     try:
         _attach(log, loaded, plan, seed)
         log.scene(0.0, plan)
-        flight = Flight(vehicle, plan, loaded.truth, loaded.mission_file.parent, seed, log)
+        flight = Flight(vehicle, plan, loaded.truth, loaded.root, seed, log)
         report = (lambda t_s: progress(t_s, plan.duration_s)) if progress else None
         ending = flight.run(report)
     except KeyboardInterrupt:

@@ -48,7 +48,7 @@ def plan_loaded(loaded: Loaded, vehicle: Vehicle) -> Plan:
         loaded.mission,
         loaded.platform.name,
         vehicle.capabilities,
-        believed_surfaces(loaded.mission, loaded.mission_file.parent),
+        believed_surfaces(loaded.mission, loaded.root),
         half_cell.cable_m,
         half_cell.min_force_n,
     )

@@ -32,7 +32,7 @@ class Loaded:
     """A mission that is ready to be planned and flown."""
 
     mission: Mission
-    """Its paths are relative to the folder of ``mission_file``."""
+    """Its paths are relative to ``root``."""
     truth: TruthModel
     """Its paths, too."""
     platform: PlatformBase

@@ -25,11 +25,11 @@ SURFACES = ("tasks.*.contact_grid.on", "tasks.*.contact_points.on")
 
 
 def resolved_files(mission: Node, root: Path) -> tuple[Node, list[Problem]]:
-    """The mission with every path relative to its own folder, and what is wrong with them.
+    """The mission with every path relative to the campaign folder, and what is wrong with them.
 
-    An inherited path stands in another file, perhaps of another folder; it is rewritten.
+    In the files a path is relative to the file that it stands in, which may be an inherited one.
     """
-    folder = Path(mission.file).resolve().parent
+    folder = root.resolve()
     problems: list[Problem] = []
     for pattern in FILES:
         for steps, node in matches(mission, pattern):
