@@ -78,7 +78,11 @@ class McapFile:
         self._attachment_indexes: list[AttachmentIndex] = []
         self._metadata_indexes: list[MetadataIndex] = []
         self._counts: dict[int, int] = {}
-        self._write(MCAP0_MAGIC + _encoded(Header(profile="", library=LIBRARY)))
+        try:
+            self._write(MCAP0_MAGIC + _encoded(Header(profile="", library=LIBRARY)))
+        except EnvironmentFault:
+            self.close()
+            raise
 
     def add_schema(self, name: str, descriptor_set: bytes) -> int:
         """Declare a protobuf message; it stands in the next chunk, under that chunk's CRC."""

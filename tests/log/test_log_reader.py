@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import struct
 import time
 
 import numpy as np
@@ -15,7 +16,7 @@ from logbook import LENGTHS, RECORDS, attach, attachments, flight, mission, plan
 from mcap.writer import CompressionType, Writer
 
 from inspect_cli.errors import LogError
-from inspect_cli.log.layout import descriptor_set, fields_of
+from inspect_cli.log.layout import channel_metadata, descriptor_set, fields_of
 from inspect_cli.log.reader import read_log
 from inspect_cli.log.writer import LogWriter
 from inspect_cli.records import Command, Estimate, Imu, Pose, Probe, Reading, State
@@ -142,6 +143,23 @@ def test_a_foreign_log_with_the_documented_channels(tmp_path, chunked):
     assert found.dtype == rows.dtype
     # proto3 takes −0.0 for a value and keeps it, so even the bits agree.
     assert found.tobytes() == rows.tobytes()
+
+
+def test_fields_in_another_order_on_the_wire(tmp_path):
+    """Protobuf lets a writer choose: same length and metadata as ours, other bytes."""
+    path = tmp_path / "real.mcap"
+    fields = fields_of(Probe, {})
+    foreign = Foreign(path)
+    descriptors = descriptor_set("inspect.Probe", fields)
+    schema = foreign.writer.register_schema("inspect.Probe", "protobuf", descriptors)
+    channel = foreign.writer.register_channel(
+        Probe.topic, "protobuf", schema, channel_metadata(fields)
+    )
+    values = {4: 1.5, 2: -0.25, 1: 0.5, 3: 800.0}  # t_s, potential, resistance, force are 1…4
+    data = b"".join(struct.pack("<Bd", number << 3 | 1, x) for number, x in values.items())
+    foreign.writer.add_message(channel, 5 * 10**8, data, 0)
+    foreign.close()
+    assert read_log(path).rows(Probe).tolist() == [(0.5, -0.25, 800.0, 1.5)]
 
 
 def one_field_file(name, **fields):
