@@ -4,7 +4,6 @@ somewhere. Checked on the nodes, so that they are reported together with the sch
 
 from __future__ import annotations
 
-import os
 from pathlib import Path
 
 from inspect_cli.errors import Problem
@@ -29,7 +28,6 @@ def resolved_files(mission: Node, root: Path) -> tuple[Node, list[Problem]]:
 
     In the files a path is relative to the file that it stands in, which may be an inherited one.
     """
-    folder = root.resolve()
     problems: list[Problem] = []
     for pattern in FILES:
         for steps, node in matches(mission, pattern):
@@ -40,7 +38,7 @@ def resolved_files(mission: Node, root: Path) -> tuple[Node, list[Problem]]:
             if problem or target is None:
                 problems += [problem] if problem else []
                 continue
-            mission = replaced(mission, steps, Path(os.path.relpath(target, folder)).as_posix())
+            mission = replaced(mission, steps, target.relative_to(root.resolve()).as_posix())
     return mission, problems
 
 

@@ -81,3 +81,9 @@ class Result(Strict):
     checks: tuple[Check, ...]
     metrics: dict[str, Metric]
     points: tuple[PointResult, ...]
+
+    @property
+    def passed(self) -> bool:
+        """Whether the flight was completed and no check failed or was left unmeasured."""
+        missed = any(check.verdict in ("fail", "not_measured") for check in self.checks)
+        return self.status == "completed" and not missed

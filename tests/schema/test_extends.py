@@ -44,7 +44,7 @@ def test_mappings_merge_sequences_are_replaced_and_null_removes(campaign: Path) 
 def test_an_inherited_path_leads_to_the_same_file(campaign: Path) -> None:
     file = write(campaign, "deep/variant.yaml", "extends: ../m.yaml\nname: variant\n")
     loaded = load_mission(file)
-    assert loaded.mission.structure[1].surface.cloud == "../scans/tank.ply"
+    assert loaded.mission.structure[1].surface.cloud == "missions/scans/tank.ply"
 
 
 def test_a_problem_is_reported_in_the_file_that_has_it(campaign: Path) -> None:

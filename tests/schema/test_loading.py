@@ -27,14 +27,14 @@ def test_a_good_mission_is_split_into_belief_and_truth(campaign: Path) -> None:
     assert isinstance(loaded.platform, TiltRotorPlatform)
 
 
-def test_paths_stay_relative_to_the_mission_file(campaign: Path) -> None:
+def test_paths_become_relative_to_the_campaign(campaign: Path) -> None:
     loaded = load_mission(campaign / "missions" / "m.yaml")
-    assert loaded.mission.structure[1].surface.cloud == "scans/tank.ply"
+    assert loaded.mission.structure[1].surface.cloud == "missions/scans/tank.ply"
     specimen = loaded.truth.structure["wall"].specimen
     assert specimen is not None
     assert specimen.model == "grid"
-    assert specimen.potential_mv == "../data/p.csv"
-    assert specimen.resistivity_kohm_cm == "../data/r.csv"
+    assert specimen.potential_mv == "data/p.csv"
+    assert specimen.resistivity_kohm_cm == "data/r.csv"
 
 
 def test_the_resolved_mission_survives_json(campaign: Path) -> None:
