@@ -1,0 +1,273 @@
+"""What people read: tables, progress and problems on stderr.
+
+Colours go where the terminal has them and ``NO_COLOR`` is not set. User text is never read as
+markup.
+"""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from contextlib import contextmanager
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from rich.console import Console
+from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeElapsedColumn
+from rich.table import Table
+from rich.text import Text
+
+if TYPE_CHECKING:
+    from inspect_cli.commands.doctor import Diagnosis
+    from inspect_cli.commands.init import Campaign
+    from inspect_cli.errors import Problem
+    from inspect_cli.regression.flights import FlightEnd
+    from inspect_cli.regression.outcome import RegressReport
+    from inspect_cli.schema.plan import Plan
+    from inspect_cli.schema.result import Check, PointResult, Result
+
+GOOD, BAD, UNSURE = "green", "bold red", "yellow"
+STYLES = {
+    "pass": GOOD,
+    "valid": GOOD,
+    "ok": GOOD,
+    "completed": GOOD,
+    "fail": BAD,
+    "failed": BAD,
+    "invalid": BAD,
+    "not_measured": BAD,
+    "aborted": BAD,
+    "diverged": BAD,
+    "interrupted": BAD,
+    "fail-known": UNSURE,
+    "warning": UNSURE,
+}
+WIDTH_WITHOUT_TERMINAL = 120
+
+
+def console() -> Console:
+    """The console on stderr."""
+    made = Console(stderr=True, markup=False, emoji=False, highlight=False)
+    if not made.is_terminal and "COLUMNS" not in os.environ:
+        made.width = WIDTH_WITHOUT_TERMINAL
+    return made
+
+
+def print_problems(problems: Sequence[Problem]) -> None:
+    """What was wrong, each where it stands and with what to do about it."""
+    out = console()
+    for problem in problems:
+        out.print(Text.assemble(("error: ", BAD), str(problem)), soft_wrap=True)
+
+
+def print_lines(lines: Iterable[str]) -> None:
+    """Lines for a machine that reads this output, such as annotations."""
+    out = console()
+    for line in lines:
+        out.print(line, soft_wrap=True)
+
+
+def announce_compilation() -> None:
+    """Say why the first run of an installation takes longer."""
+    if os.environ.get("NUMBA_DISABLE_JIT", "0") != "0":
+        return
+    places = [Path(__file__).parent, Path.home() / ".cache" / "numba"]
+    if "NUMBA_CACHE_DIR" in os.environ:
+        places = [Path(os.environ["NUMBA_CACHE_DIR"])]
+    if not any(next(place.rglob("*.nbi"), None) for place in places):
+        console().print("first run of this installation: compiling, once, some 15 s")
+
+
+def print_campaign(made: Campaign) -> None:
+    """A new campaign folder and the first thing to do in it."""
+    out = console()
+    out.print(f"made {made.folder} with {len(made.files)} files")
+    if made.first_mission:
+        out.print(f"next: cd {made.folder}; inspect fly {made.first_mission}", soft_wrap=True)
+
+
+def print_plan(plan: Plan, file: Path) -> None:
+    """The surfaces, the points in the order of the flight, and what the flight takes."""
+    out = console()
+    surfaces = _table(f"{plan.mission}: surfaces", "surface", "shape", "from", "fit")
+    for surface in plan.surfaces:
+        fit = surface.fit
+        quality = f"{fit.inlier_share:.0%} within, rms {1000 * fit.rms_m:.1f} mm" if fit else ""
+        surfaces.add_row(surface.name, surface.shape.kind, surface.source, quality)
+    out.print(surfaces)
+    points = _table(
+        f"{plan.mission}: points",
+        *("point", "surface", "x, y, z /m", "press /m", "force /N"),
+        *("thrust margin /N", "clearance /m"),
+    )
+    for target in plan.targets:
+        points.add_row(
+            target.label,
+            target.surface or "",
+            ", ".join(f"{x:.3f}" for x in target.p_WC),
+            f"{target.press_m:.2f}",
+            f"{target.expected_force_n:.2f}",
+            f"{target.thrust_margin_n:.1f}",
+            f"{target.clearance_m:.2f}",
+        )
+    out.print(points)
+    out.print(
+        f"{plan.duration_s:.0f} s, {plan.path_m:.1f} m, {plan.energy_wh:.1f} Wh, "
+        f"cable {plan.cable_m:.1f} m"
+    )
+    for warning in plan.warnings:
+        out.print(Text.assemble(("warning: ", UNSURE), warning), soft_wrap=True)
+    out.print(f"plan: {file}", soft_wrap=True)
+
+
+def print_flight(result: Result, folder: Path) -> None:
+    """A flight's points and checks, and where its files are."""
+    _print_result(result)
+    out = console()
+    out.print(f"run: {folder}", soft_wrap=True)
+    out.print(f"next: inspect report {folder}", soft_wrap=True)
+
+
+def print_report(result: Result, page: Path) -> None:
+    """A reported run and its page."""
+    _print_result(result)
+    console().print(f"report: {page}", soft_wrap=True)
+
+
+def print_regression(report: RegressReport, updated: Sequence[Path]) -> None:
+    """All flights, what is wrong with those that fail, and what changed by how much."""
+    out = console()
+    table = _table("regression", "mission", "platform", "seed", "status", "checks", "verdict")
+    for flight in report.missions:
+        passed = sum(check.verdict == "pass" for check in flight.checks)
+        table.add_row(
+            flight.mission,
+            flight.platform,
+            str(flight.seed),
+            flight.status or "not flown",
+            f"{passed}/{len(flight.checks)}",
+            _styled(flight.verdict),
+        )
+    out.print(table)
+    for flight in report.missions:
+        for reason in flight.reasons:
+            name = f"{flight.mission} seed {flight.seed}: "
+            out.print(Text.assemble((name, BAD), reason), soft_wrap=True)
+    for file in updated:
+        out.print(f"rewrote {file}", soft_wrap=True)
+    out.print(f"{report.passed} passed, {report.failed} failed, {report.known} known failures")
+
+
+def print_diagnosis(diagnosis: Diagnosis) -> None:
+    """What was examined, what was found, and how to mend what fails."""
+    out = console()
+    table = _table("inspect doctor", "what", "verdict", "found")
+    for finding in diagnosis.findings:
+        table.add_row(finding.what, _styled(finding.verdict), finding.found)
+    out.print(table)
+    for finding in diagnosis.findings:
+        if finding.hint:
+            out.print(Text.assemble((f"{finding.what}: ", UNSURE), finding.hint), soft_wrap=True)
+
+
+@contextmanager
+def flight_progress(*, shown: bool) -> Iterator[Callable[[float, float], None]]:
+    """A bar of the time of flight; the function takes seconds flown and seconds planned."""
+    bar = _bar(TextColumn("{task.fields[flown]:.0f} of {task.total:.0f} s"), shown=shown)
+    with bar:
+        task = bar.add_task("flying", total=1.0, flown=0.0)
+
+        def advance(flown_s: float, planned_s: float) -> None:
+            done = min(flown_s, planned_s)
+            bar.update(task, total=planned_s, completed=done, flown=flown_s)
+
+        yield advance
+
+
+@contextmanager
+def regression_progress(*, shown: bool) -> Iterator[Callable[[int, int, FlightEnd], None]]:
+    """A bar of the flights; the function takes flights done, flights in all and the last."""
+    with _bar(MofNCompleteColumn(), shown=shown) as bar:
+        task = bar.add_task("flights", total=None)
+
+        def advance(done: int, total: int, end: FlightEnd) -> None:
+            bar.update(task, total=total, completed=done)
+
+        yield advance
+
+
+def _bar(column: TextColumn | MofNCompleteColumn, *, shown: bool) -> Progress:
+    out = console()
+    columns = (TextColumn("{task.description}"), BarColumn(), column, TimeElapsedColumn())
+    return Progress(*columns, console=out, transient=True, disable=not (shown and out.is_terminal))
+
+
+def _print_result(result: Result) -> None:
+    out = console()
+    seed = "" if result.seed is None else f", seed {result.seed}"
+    why = f": {result.status_reason}" if result.status_reason else ""
+    out.print(
+        Text.assemble(f"{result.mission} on {result.platform}{seed}: ", _styled(result.status), why)
+    )
+    if result.points:
+        out.print(_points_table(result.points))
+    if result.checks:
+        out.print(_checks_table(result.checks))
+    valid = sum(point.valid for point in result.points)
+    passed = sum(check.verdict == "pass" for check in result.checks)
+    out.print(
+        f"{valid} of {len(result.points)} readings valid, "
+        f"{passed} of {len(result.checks)} checks passed"
+    )
+
+
+def _points_table(points: Sequence[PointResult]) -> Table:
+    table = _table(
+        *("points", "point", "reading", "potential /mV", "resistivity /Ω·m", "force /N"),
+        *("corrosion", "why invalid"),
+    )
+    for point in points:
+        table.add_row(
+            point.label,
+            _styled("valid" if point.valid else "invalid"),
+            _number(point.potential_mv, ".0f"),
+            _number(point.resistivity_ohm_m, ".0f"),
+            _number(point.probe_force_n, ".2f"),
+            point.corrosion or "",
+            point.reason,
+        )
+    return table
+
+
+def _checks_table(checks: Sequence[Check]) -> Table:
+    table = _table("checks", "metric", "value", "unit", "asked for", "answers", "verdict", "reason")
+    for check in checks:
+        bounds = [
+            *([f"≥ {check.min:g}"] if check.min is not None else []),
+            *([f"≤ {check.max:g}"] if check.max is not None else []),
+        ]
+        table.add_row(
+            check.metric,
+            _number(check.value, ".4g"),
+            check.unit,
+            " and ".join(bounds),
+            check.ref or "",
+            _styled(check.verdict),
+            check.reason,
+        )
+    return table
+
+
+def _table(title: str, *columns: str) -> Table:
+    table = Table(title=title, title_justify="left")
+    for column in columns:
+        table.add_column(column, overflow="fold")
+    return table
+
+
+def _styled(word: str) -> Text:
+    return Text(word, style=STYLES.get(word, ""))
+
+
+def _number(value: float | None, form: str) -> str:
+    return "—" if value is None else format(value, form)
