@@ -33,7 +33,7 @@ def judge(
         return _report(loaded, end, "fail", (f"it could not be flown: {end.error}",), (), ())
     checks = answer_all(loaded.mission.acceptance, end.result.metrics, resolve)
     reasons = [*_status_reasons(loaded, end.result), *_check_reasons(checks)]
-    changes, reference_reasons = _changes(end.result, reference)
+    changes, reference_reasons = _changes(end.result, reference, loaded.root)
     if not updating:
         reasons += reference_reasons
     known = any(check.verdict == "fail-known" for check in checks)
@@ -91,13 +91,13 @@ def _check_reasons(checks: tuple[Check, ...]) -> list[str]:
     return [describe(check) for check in checks if check.verdict in ("fail", "not_measured")]
 
 
-def _changes(result: Result, path: Path) -> tuple[tuple[Change, ...], list[str]]:
+def _changes(result: Result, path: Path, root: Path) -> tuple[tuple[Change, ...], list[str]]:
     try:
         reference = read_reference(path)
     except InputError as error:
         return (), [str(error)]
     if reference is None:
-        return (), [f"there is no reference {path}; `inspect regress --update` writes it"]
+        return (), [f"there is no {path.relative_to(root)}; `inspect regress --update` writes it"]
     changes = compare(result, reference)
     reasons = [f"{change.metric}: {change.what}" for change in changes]
     if result.status != reference.status:
