@@ -56,10 +56,10 @@ def tracking_errors(estimate: Structured, reference: Structured) -> tuple[float,
     now, ref = estimate[0], reference[0]
     square = 0.0
     for k in range(3):
-        square += (now.p_WB[k] - ref.p_WB[k]) ** 2
+        square += (now["p_WB"][k] - ref["p_WB"][k]) ** 2
     cosine = 0.0
     for k in range(4):
-        cosine += now.q_WB[k] * ref.q_WB[k]
+        cosine += now["q_WB"][k] * ref["q_WB"][k]
     return np.sqrt(square), 2.0 * np.arccos(min(abs(cosine), 1.0))
 
 

@@ -12,8 +12,9 @@ from pathlib import Path
 from pydantic import ValidationError
 
 from inspect_cli.commands.plan import plan_loaded, vehicle_of
-from inspect_cli.commands.runs import LOG_NAME, run_folder, write_json, write_model
+from inspect_cli.commands.runs import LOG_NAME, prepare_run, run_folder, write_json, write_model
 from inspect_cli.errors import InputError
+from inspect_cli.log import names
 from inspect_cli.log.reader import read_log
 from inspect_cli.log.writer import LogWriter
 from inspect_cli.metrics.evaluate import evaluate
@@ -22,6 +23,7 @@ from inspect_cli.schema.loading import Loaded, load_mission
 from inspect_cli.schema.plan import Plan, PlanFile
 from inspect_cli.schema.result import Result
 from inspect_cli.simulation.loop import Ending, Flight
+from inspect_cli.vehicles.kinds import Vehicle
 
 VERSIONED = ("inspect-cli", "mujoco", "numpy", "numba", "mcap")
 
@@ -53,23 +55,37 @@ def fly(
     plan = plan or plan_loaded(loaded, vehicle)
     seed = loaded.mission.seeds[0] if seed is None else seed
     folder = out or run_folder(loaded.root, plan.mission, plan.platform, seed)
-    folder.mkdir(parents=True, exist_ok=True)
-    log = LogWriter(folder / LOG_NAME, CORE_RECORDS, vehicle.capabilities.lengths)
-    try:
-        _attach(log, loaded, plan, seed)
-        log.scene(0.0, plan)
-        flight = Flight(vehicle, plan, loaded.truth, loaded.root, seed, log)
-        report = (lambda t_s: progress(t_s, plan.duration_s)) if progress else None
-        ending = flight.run(report)
-    except KeyboardInterrupt:
-        log.close("interrupted", "stopped by the user")
-        raise
-    log.close(ending.status, ending.reason)
+    prepare_run(folder)
+    ending = _fly(folder, vehicle, plan, loaded, seed, progress)
     write_model(folder / "plan.json", plan)
     result = evaluate(read_log(folder / LOG_NAME))
     write_model(folder / "metrics.json", result)
     write_json(folder / "timing.json", _timing(ending))
     return FlyOutcome(result, folder, ending)
+
+
+def _fly(
+    folder: Path,
+    vehicle: Vehicle,
+    plan: Plan,
+    loaded: Loaded,
+    seed: int,
+    progress: Callable[[float, float], None] | None,
+) -> Ending:
+    """Fly and leave a whole log; an interrupted flight leaves the part that was flown."""
+    lengths = vehicle.capabilities.lengths
+    with LogWriter(folder / LOG_NAME, CORE_RECORDS, lengths) as log:
+        _attach(log, loaded, plan, seed)
+        log.scene(0.0, plan)
+        flight = Flight(vehicle, plan, loaded.truth, loaded.root, seed, log)
+        report = (lambda t_s: progress(t_s, plan.duration_s)) if progress else None
+        try:
+            ending = flight.run(report)
+        except KeyboardInterrupt:
+            log.close("interrupted", "stopped by the user")
+            raise
+        log.close(ending.status, ending.reason)
+    return ending
 
 
 def _load(path: Path, platform: Path | None) -> tuple[Loaded, Plan | None]:
@@ -88,16 +104,16 @@ def _load(path: Path, platform: Path | None) -> tuple[Loaded, Plan | None]:
 def _attach(log: LogWriter, loaded: Loaded, plan: Plan, seed: int) -> None:
     """Everything that the report needs travels in the log."""
     models = {
-        "mission.json": loaded.mission,
-        "platform.json": loaded.platform,
-        "plan.json": plan,
-        "truth.json": loaded.truth,
+        names.MISSION: loaded.mission,
+        names.PLATFORM: loaded.platform,
+        names.PLAN: plan,
+        names.TRUTH: loaded.truth,
     }
     for name, model in models.items():
         log.attach(name, "application/json", model.model_dump_json(by_alias=True).encode())
     versions = {name: version(name) for name in VERSIONED} | {"python": host.python_version()}
     run = json.dumps({"seed": seed, "versions": versions}, sort_keys=True)
-    log.attach("run.json", "application/json", run.encode())
+    log.attach(names.RUN, "application/json", run.encode())
 
 
 def _timing(ending: Ending) -> dict[str, float]:

@@ -15,6 +15,15 @@ from pydantic import BaseModel
 from inspect_cli.files import write_whole
 
 LOG_NAME = "flight.mcap"
+RUN_FILES = (
+    "plan.json",
+    LOG_NAME,
+    f"{LOG_NAME}.part",
+    "metrics.json",
+    "timing.json",
+    "readings.csv",
+    "report.html",
+)
 
 
 def plan_folder(root: Path, mission: str, platform: str) -> Path:
@@ -25,6 +34,13 @@ def plan_folder(root: Path, mission: str, platform: str) -> Path:
 def run_folder(root: Path, mission: str, platform: str, seed: int) -> Path:
     """The folder of a run in a campaign."""
     return root / "reports" / mission / f"{platform}-seed{seed}"
+
+
+def prepare_run(folder: Path) -> None:
+    """Make a run's folder, without what an earlier run left in it."""
+    folder.mkdir(parents=True, exist_ok=True)
+    for name in RUN_FILES:
+        (folder / name).unlink(missing_ok=True)
 
 
 def write_model(path: Path, model: BaseModel) -> None:

@@ -22,6 +22,7 @@ import numpy as np
 from inspect_cli.compiled import kernel
 from inspect_cli.records import Command, Estimate, Reference
 from inspect_cli.schema.platform import ControlModel, ImpedanceProfile
+from inspect_cli.spatial.constants import GRAVITY_MPS2
 from inspect_cli.spatial.rotations import (
     cross,
     quaternion_conjugate,
@@ -30,8 +31,6 @@ from inspect_cli.spatial.rotations import (
     rotate_back,
 )
 from inspect_cli.spatial.types import Matrix, Structured, Vector
-
-GRAVITY_MPS2 = 9.81
 
 
 @kernel
@@ -52,16 +51,16 @@ def impedance_wrench(
     ``shaping`` (2, 3, 3) holds R M̃⁻¹ Rᵀ − I for force and for torque; ``stiffness`` and
     ``damping`` (6,) are the diagonals of K̃ and D̃ in B; ``weight_B`` (3,) is in B, N.
     """
-    now, ref, wrench_B = estimate[0], reference[0], command[0].wrench_B
-    q_WB, w = now.q_WB, now.w_WB_B
-    p_error = rotate_back(q_WB, now.p_WB - ref.p_WB)
-    v_error = rotate_back(q_WB, now.v_WB_W - ref.v_WB_W)
+    now, ref, wrench_B = estimate[0], reference[0], command[0]["wrench_B"]
+    q_WB, w = now["q_WB"], now["w_WB_B"]
+    p_error = rotate_back(q_WB, now["p_WB"] - ref["p_WB"])
+    v_error = rotate_back(q_WB, now["v_WB_W"] - ref["v_WB_W"])
     # The rotation vector of the error is its own axis: the same in the reference's B and in B.
-    q_error = quaternion_multiply(quaternion_conjugate(ref.q_WB), q_WB)
+    q_error = quaternion_multiply(quaternion_conjugate(ref["q_WB"]), q_WB)
     theta = quaternion_log(q_error)
-    w_ref_B = rotate_back(q_error, ref.w_WB_B)
-    alpha_ref_B = rotate_back(q_error, ref.alpha_WB_B)
-    a_ref_B = rotate_back(q_WB, ref.a_WB_W)
+    w_ref_B = rotate_back(q_error, ref["w_WB_B"])
+    alpha_ref_B = rotate_back(q_error, ref["alpha_WB_B"])
+    a_ref_B = rotate_back(q_WB, ref["a_WB_W"])
     up_B = rotate_back(q_WB, np.array([0.0, 0.0, GRAVITY_MPS2]))
 
     # M v̇_ref + C v + g of a rigid body about O_b whose centre of mass is at com_B.
@@ -85,8 +84,8 @@ def impedance_wrench(
             - damping[3 + k] * (w[k] - w_ref_B[k])
         )
         for j in range(3):
-            force += shaping[0, k, j] * now.wrench_B[j]
-            torque += shaping[1, k, j] * now.wrench_B[3 + j]
+            force += shaping[0, k, j] * now["wrench_B"][j]
+            torque += shaping[1, k, j] * now["wrench_B"][3 + j]
         wrench_B[k] = force
         wrench_B[3 + k] = torque
 

@@ -24,6 +24,7 @@ from typing import Final
 import numpy as np
 
 from inspect_cli.compiled import kernel
+from inspect_cli.spatial.constants import GRAVITY_MPS2
 from inspect_cli.spatial.rotations import (
     quaternion_conjugate,
     quaternion_exp,
@@ -34,9 +35,6 @@ from inspect_cli.spatial.rotations import (
     rotate,
 )
 from inspect_cli.spatial.types import Matrix, Structured, Vector
-
-GRAVITY_MPS2: Final = 9.81
-"""MuJoCo's default."""
 
 STATES: Final = 15
 MEASURED: Final = (0, 1, 2, 6, 7, 8)

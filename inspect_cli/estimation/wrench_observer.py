@@ -26,17 +26,13 @@ are taken between the two ends of the step (error of order Δt²).
 
 from __future__ import annotations
 
-from typing import Final
-
 import numpy as np
 
 from inspect_cli.compiled import kernel
 from inspect_cli.records import Estimate
+from inspect_cli.spatial.constants import GRAVITY_MPS2
 from inspect_cli.spatial.rotations import cross, rotate, rotate_back
 from inspect_cli.spatial.types import Matrix, Vector
-
-GRAVITY_MPS2: Final = 9.81
-"""MuJoCo's default."""
 
 
 @kernel

@@ -103,9 +103,9 @@ def _reason(reading: Structured | None, status: Status, probe: HalfCellModel) ->
         return "the reading counts as valid but has no potential"
     words: dict[float, str] = {
         InvalidReason.NOT_VISITED: "not visited",
-        InvalidReason.NO_CONTACT: "no contact",
+        InvalidReason.NO_CONTACT: "force: the probe never touched anything",
         InvalidReason.FORCE: (
-            f"the force did not stay at {probe.min_force_n:g} N for {probe.min_contact_s:g} s"
+            f"force: it did not stay at {probe.min_force_n:g} N for {probe.min_contact_s:g} s"
         ),
         InvalidReason.UNSTABLE: (
             f"the potential did not stay within {1e3 * probe.stable_v:g} mV "

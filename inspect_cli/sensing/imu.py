@@ -10,19 +10,15 @@ Minnesota, TR 2005-002), section 1.2.
 
 from __future__ import annotations
 
-from typing import Final
-
 import numpy as np
 
 from inspect_cli.compiled import kernel
 from inspect_cli.records import Imu, State
 from inspect_cli.schema.platform import ImuModel
 from inspect_cli.sensing.instrument import Noise
+from inspect_cli.spatial.constants import GRAVITY_MPS2
 from inspect_cli.spatial.rotations import rotate_back
 from inspect_cli.spatial.types import Vector
-
-GRAVITY_MPS2: Final = 9.81
-"""MuJoCo's default."""
 
 
 @kernel

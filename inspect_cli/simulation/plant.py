@@ -68,28 +68,28 @@ def read_state(
     q = qpos[3:7]
     sign = -1.0 if q[0] < 0.0 else 1.0
     for k in range(4):
-        row.q_WB[k] = sign * q[k]
+        row["q_WB"][k] = sign * q[k]
     force_W = np.empty(3)
     for k in range(3):
-        row.p_WB[k] = qpos[k]
-        row.v_WB_W[k] = qvel[k]
-        row.w_WB_B[k] = qvel[3 + k]
-        row.a_WB_W[k] = qacc[k]
-        row.alpha_WB_B[k] = qacc[3 + k]
-        row.p_WT[k] = tip_W[k]
-        row.f_tool_W[k] = -contact[k]
-        row.wrench_ext_B[3 + k] = constraint[3 + k] + applied[3 + k]
+        row["p_WB"][k] = qpos[k]
+        row["v_WB_W"][k] = qvel[k]
+        row["w_WB_B"][k] = qvel[3 + k]
+        row["a_WB_W"][k] = qacc[k]
+        row["alpha_WB_B"][k] = qacc[3 + k]
+        row["p_WT"][k] = tip_W[k]
+        row["f_tool_W"][k] = -contact[k]
+        row["wrench_ext_B"][3 + k] = constraint[3 + k] + applied[3 + k]
         force_W[k] = constraint[k] + applied[k]
-    row.wrench_ext_B[:3] = rotate_back(q, force_W)
+    row["wrench_ext_B"][:3] = rotate_back(q, force_W)
     # z_T is the third column of R_WT; what presses along it is pushed back against it.
-    row.f_normal = tip_axes[2] * contact[0] + tip_axes[5] * contact[1] + tip_axes[8] * contact[2]
-    row.f_body = np.sqrt(contact[3] ** 2 + contact[4] ** 2 + contact[5] ** 2)
-    n_joints = row.joint_angle.shape[0]
+    row["f_normal"] = tip_axes[2] * contact[0] + tip_axes[5] * contact[1] + tip_axes[8] * contact[2]
+    row["f_body"] = np.sqrt(contact[3] ** 2 + contact[4] ** 2 + contact[5] ** 2)
+    n_joints = row["joint_angle"].shape[0]
     for j in range(n_joints):
-        row.joint_angle[j] = qpos[7 + j]
-        row.joint_rate[j] = qvel[6 + j]
-    for i in range(row.rotor_thrust.shape[0]):
-        row.rotor_thrust[i] = activation[i]
+        row["joint_angle"][j] = qpos[7 + j]
+        row["joint_rate"][j] = qvel[6 + j]
+    for i in range(row["rotor_thrust"].shape[0]):
+        row["rotor_thrust"][i] = activation[i]
 
 
 class Plant:

@@ -20,16 +20,16 @@ def nearest_surface(prims: Structured, p_W: Vector, contact: Structured) -> int:
         distance = patch_distance(prims, i, p_W)
         if abs(distance) < nearest:
             nearest, index = abs(distance), i
-    row.surface = index
+    row["surface"] = index
     if index < 0:
-        row.distance = np.nan
-        row.n_W[:] = np.nan
-        row.uv[:] = np.nan
+        row["distance"] = np.nan
+        row["n_W"][:] = np.nan
+        row["uv"][:] = np.nan
         return index
     foot = project(prims, index, p_W)
-    row.distance = foot[2]
-    row.uv[:] = foot[:2]
-    row.n_W[:] = normal_at(prims, index, foot[0], foot[1])
+    row["distance"] = foot[2]
+    row["uv"][:] = foot[:2]
+    row["n_W"][:] = normal_at(prims, index, foot[0], foot[1])
     return index
 
 

@@ -276,7 +276,7 @@ def test_missing_wall(flight: SyntheticFlight) -> None:
     assert "never touched" in why(flight, "guidance.tool_axis_error_mean_deg")
     assert "no reading is valid" in why(flight, "half_cell.potential_error_max_v")
     assert "no point was pressed" in why(flight, "contact.position_error_max_m")
-    assert result.points[0].reason == "no contact"
+    assert result.points[0].reason == "force: the probe never touched anything"
     assert result.points[0].p_W == pytest.approx(synthetic.planned_point(0))
     assert {p.reason for p in result.points[1:]} == {"the flight ended before it was read"}
 

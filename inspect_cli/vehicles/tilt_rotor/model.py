@@ -11,8 +11,8 @@ from __future__ import annotations
 import mujoco
 import numpy as np
 
-from inspect_cli.control.impedance import GRAVITY_MPS2
 from inspect_cli.schema.platform import TiltArm, TiltRotorPlatform
+from inspect_cli.spatial.constants import GRAVITY_MPS2
 from inspect_cli.spatial.rotations import matrix_to_quaternion
 from inspect_cli.spatial.types import Matrix, Vector
 
