@@ -116,7 +116,7 @@ def plan(
     from inspect_cli.commands.plan import plan as command
 
     with _stdout_kept_clean():
-        terminal.announce_compilation()
+        terminal.announce_compilation(shown=not as_json)
         outcome = command(mission, platform, out)
     if as_json:
         sys.stdout.write(outcome.plan.model_dump_json(by_alias=True) + "\n")
@@ -142,7 +142,7 @@ def fly(
     from inspect_cli.commands.fly import fly as command
 
     with _stdout_kept_clean():
-        terminal.announce_compilation()
+        terminal.announce_compilation(shown=not as_json)
         with terminal.flight_progress(shown=not as_json) as progress:
             outcome = command(mission, seed=seed, platform=platform, out=out, progress=progress)
     if as_json:
@@ -195,7 +195,7 @@ def regress(
     from inspect_cli.commands.regress import regress as command
 
     with _stdout_kept_clean():
-        terminal.announce_compilation()
+        terminal.announce_compilation(shown=not as_json)
         with terminal.regression_progress(shown=not as_json) as progress:
             outcome = command(
                 paths or (), jobs=jobs, update=update, junit=junit, out=out, progress=progress

@@ -67,9 +67,9 @@ def print_lines(lines: Iterable[str]) -> None:
         out.print(line, soft_wrap=True)
 
 
-def announce_compilation() -> None:
+def announce_compilation(*, shown: bool) -> None:
     """Say why the first run of an installation takes longer."""
-    if os.environ.get("NUMBA_DISABLE_JIT", "0") != "0":
+    if not shown or os.environ.get("NUMBA_DISABLE_JIT", "0") != "0":
         return
     places = [Path(__file__).parent, Path.home() / ".cache" / "numba"]
     if "NUMBA_CACHE_DIR" in os.environ:
@@ -117,21 +117,21 @@ def print_plan(plan: Plan, file: Path) -> None:
     )
     for warning in plan.warnings:
         out.print(Text.assemble(("warning: ", UNSURE), warning), soft_wrap=True)
-    out.print(f"plan: {file}", soft_wrap=True)
+    out.print(f"plan: {_near(file)}", soft_wrap=True)
 
 
 def print_flight(result: Result, folder: Path) -> None:
     """A flight's points and checks, and where its files are."""
     _print_result(result)
     out = console()
-    out.print(f"run: {folder}", soft_wrap=True)
-    out.print(f"next: inspect report {folder}", soft_wrap=True)
+    out.print(f"run: {_near(folder)}", soft_wrap=True)
+    out.print(f"next: inspect report {_near(folder)}", soft_wrap=True)
 
 
 def print_report(result: Result, page: Path) -> None:
     """A reported run and its page."""
     _print_result(result)
-    console().print(f"report: {page}", soft_wrap=True)
+    console().print(f"report: {_near(page)}", soft_wrap=True)
 
 
 def print_regression(report: RegressReport, updated: Sequence[Path]) -> None:
@@ -154,7 +154,7 @@ def print_regression(report: RegressReport, updated: Sequence[Path]) -> None:
             name = f"{flight.mission} seed {flight.seed}: "
             out.print(Text.assemble((name, BAD), reason), soft_wrap=True)
     for file in updated:
-        out.print(f"rewrote {file}", soft_wrap=True)
+        out.print(f"rewrote {_near(file)}", soft_wrap=True)
     out.print(f"{report.passed} passed, {report.failed} failed, {report.known} known failures")
 
 
@@ -186,12 +186,18 @@ def flight_progress(*, shown: bool) -> Iterator[Callable[[float, float], None]]:
 
 @contextmanager
 def regression_progress(*, shown: bool) -> Iterator[Callable[[int, int, FlightEnd], None]]:
-    """A bar of the flights; the function takes flights done, flights in all and the last."""
+    """A bar of the flights, or a line for each where there is no terminal.
+
+    The function takes flights done, flights in all and the last.
+    """
     with _bar(MofNCompleteColumn(), shown=shown) as bar:
         task = bar.add_task("flights", total=None)
 
         def advance(done: int, total: int, end: FlightEnd) -> None:
             bar.update(task, total=total, completed=done)
+            if shown and bar.disable:
+                name = f"{end.task.mission_file.stem} seed {end.task.seed}"
+                bar.console.print(f"{done}/{total} {name}, {end.wall_s:.1f} s", soft_wrap=True)
 
         yield advance
 
@@ -242,20 +248,24 @@ def _points_table(points: Sequence[PointResult]) -> Table:
 def _checks_table(checks: Sequence[Check]) -> Table:
     table = _table("checks", "metric", "value", "unit", "asked for", "answers", "verdict", "reason")
     for check in checks:
-        bounds = [
-            *([f"≥ {check.min:g}"] if check.min is not None else []),
-            *([f"≤ {check.max:g}"] if check.max is not None else []),
-        ]
         table.add_row(
-            check.metric,
+            f"{check.metric} over {check.over}" if check.over else check.metric,
             _number(check.value, ".4g"),
-            check.unit,
-            " and ".join(bounds),
+            "" if check.unit == "1" else check.unit,
+            _bounds(check),
             check.ref or "",
             _styled(check.verdict),
             check.reason,
         )
     return table
+
+
+def _bounds(check: Check) -> str:
+    if check.min is not None and check.min == check.max:
+        return f"= {check.min:g}"
+    low = "" if check.min is None else f"≥ {check.min:g}"
+    high = "" if check.max is None else f"≤ {check.max:g}"
+    return " and ".join(bound for bound in (low, high) if bound)
 
 
 def _table(title: str, *columns: str) -> Table:
@@ -271,3 +281,10 @@ def _styled(word: str) -> Text:
 
 def _number(value: float | None, form: str) -> str:
     return "—" if value is None else format(value, form)
+
+
+def _near(path: Path) -> Path:
+    """The path as it is written from here, where that is shorter."""
+    here = Path.cwd()
+    whole = path.resolve()
+    return whole.relative_to(here) if whole.is_relative_to(here) else path

@@ -80,7 +80,7 @@ def test_a_bad_mission_is_refused_and_nothing_is_written(
     done = shell(command, mission)
     assert done.returncode == 2
     assert done.stdout == ""
-    assert done.stderr == (
+    assert done.stderr.endswith(  # an announcement of the first run may come before
         f"error: {mission}:{line}:{column}: "
         "tasks[0].contact_grid.pitch_cm: unknown key 'pitch_cm'\n"
         "    the key is 'pitch_m', in metres: write pitch_m: 0.05\n"
@@ -127,7 +127,7 @@ def test_a_platform_of_negative_mass(campaign: Path, capsys: pytest.CaptureFixtu
     before = files(campaign)
     assert cli.run(["plan", str(mission), "--platform", str(platform)]) == 2
     message = f"error: {platform}:28:12: core.mass_kg: must be above 0; found -2.76\n"
-    assert capsys.readouterr().err == message
+    assert capsys.readouterr().err.endswith(message)
     assert files(campaign) == before
 
 
