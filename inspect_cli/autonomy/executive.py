@@ -34,6 +34,8 @@ PAUSE_S = 0.2
 """At rest at the end of each stretch before the next begins."""
 SAFE_HOVER_S = 3.0
 """Hover after an abort before the run ends."""
+TOUCHDOWN_M = 0.03
+"""How far below standing height the landing leads, so that the motors stop on the ground."""
 BEFORE_CONTACT_M = 0.01
 """The approach ends this far from the surface; the press goes through it."""
 
@@ -217,6 +219,8 @@ class Executive:
         self._enter(t_s, mode, -1 if leg.target is None else leg.target)
         if leg.target is None or mode == Mode.TRANSIT:
             postures = [posture_of(model) for model in leg.postures]
+            if mode == Mode.LAND:
+                postures.append(_lower(postures[-1], TOUCHDOWN_M))
             self._guidance.go_to(t_s, postures, leg.speed_mps)
             return
         target = self._plan.targets[leg.target]
@@ -272,6 +276,11 @@ class Executive:
 def posture_of(model: PostureModel) -> Posture:
     """The posture that a plan spells out."""
     return Posture(np.array(model.p_WB), np.array(model.q_WB), np.array(model.arm_angle_rad))
+
+
+def _lower(posture: Posture, by_m: float) -> Posture:
+    down = np.array([0.0, 0.0, by_m])
+    return Posture(posture.p_WB - down, posture.q_WB, posture.arm_angle)
 
 
 def _no_reading(t_s: float, target: Target) -> Reading:
