@@ -260,7 +260,10 @@ def _rays_on_plane(
     """Shorten ``ranges`` to the hits on a rectangle; ``o`` (3,) is the rays' origin in S."""
     for k in range(ranges.size):
         dx, dy, dz = directions_W[k, 0], directions_W[k, 1], directions_W[k, 2]
-        t = -o[2] / (R[0, 2] * dx + R[1, 2] * dy + R[2, 2] * dz)
+        across = R[0, 2] * dx + R[1, 2] * dy + R[2, 2] * dz
+        if across == 0.0:
+            continue
+        t = -o[2] / across
         u = o[0] + t * (R[0, 0] * dx + R[1, 0] * dy + R[2, 0] * dz)
         v = o[1] + t * (R[0, 1] * dx + R[1, 1] * dy + R[2, 1] * dz)
         if 0.0 <= t < ranges[k] and abs(u) <= half_u and abs(v) <= half_v:
@@ -298,7 +301,8 @@ def _rays_on_round(
             continue
         # Of the two ways to write each root, the one without cancellation.
         w = -b - np.copysign(np.sqrt(discriminant), b)
-        t_1, t_2 = w / a, c / w
+        t_1 = w / a
+        t_2 = c / w if w != 0.0 else t_1
         for t in (min(t_1, t_2), max(t_1, t_2)):
             if not 0.0 <= t < ranges[k]:
                 continue

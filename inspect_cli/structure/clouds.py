@@ -9,7 +9,7 @@ import numpy as np
 
 from inspect_cli.spatial.types import Points
 from inspect_cli.structure.files import ReadPoints, open3d, refused, require_file, truncated
-from inspect_cli.structure.headers import ply_elements, require_whole_pcd
+from inspect_cli.structure.headers import whole_pcd, whole_ply
 
 AGAIN = "export or copy it again"
 
@@ -37,24 +37,28 @@ def read_cloud(path: Path) -> ReadPoints:
 
 
 def _read_ply(path: Path) -> Points:
-    vertices = [e for e in ply_elements(path) if e.name == "vertex"]
-    if not vertices or not {"x", "y", "z"} <= set(vertices[0].properties):
+    header = whole_ply(path)
+    names = next((e.properties for e in header.elements if e.name == "vertex"), ())
+    if not {"x", "y", "z"} <= set(names):
         raise refused(path, "the PLY file has no vertices with x, y, z", "export the points")
-    return _read_by_open3d(path, vertices[0].count)
+    lines = header.vertex_lines()
+    if lines is not None:
+        return _numbers(path, lines, None, [names.index(axis) for axis in "xyz"])
+    return _read_by_open3d(path)
 
 
 def _read_pcd(path: Path) -> Points:
-    require_whole_pcd(path)
-    return _read_by_open3d(path, None)
+    header = whole_pcd(path)
+    if header.lines is not None:
+        return _numbers(path, header.lines, None, [header.columns[axis] for axis in "xyz"])
+    return _read_by_open3d(path)
 
 
-def _read_by_open3d(path: Path, promised: int | None) -> Points:
+def _read_by_open3d(path: Path) -> Points:
     cloud = open3d().io.read_point_cloud(
         str(path), remove_nan_points=False, remove_infinite_points=False
     )
     points: Points = np.array(cloud.points)
-    if promised is not None and len(points) != promised:
-        raise truncated(path, f"{promised} points", str(len(points)))
     return points
 
 
@@ -68,7 +72,7 @@ def _read_text(path: Path) -> Points:
     if not rows:
         return np.empty((0, 3))
     delimiter = next((d for d in (",", ";", "\t") if d in rows[0]), None)
-    columns = (0, 1, 2)
+    columns = [0, 1, 2]
     header = [word.strip().strip('"').lower() for word in rows[0].split(delimiter)]
     if not all(_is_number(word) for word in header):
         if not {"x", "y", "z"} <= set(header):
@@ -77,12 +81,16 @@ def _read_text(path: Path) -> Points:
                 f"the header names {', '.join(header)}, but not x, y and z",
                 "name the columns x,y,z or leave the header out",
             )
-        columns = (header.index("x"), header.index("y"), header.index("z"))
+        columns = [header.index(axis) for axis in "xyz"]
         rows = rows[1:]
+    return _numbers(path, rows, delimiter, columns)
+
+
+def _numbers(path: Path, rows: list[str], delimiter: str | None, columns: list[int]) -> Points:
     if not rows:
         return np.empty((0, 3))
     try:
-        return np.loadtxt(rows, delimiter=delimiter, usecols=columns, ndmin=2)
+        return np.loadtxt(rows, delimiter=delimiter, usecols=columns, ndmin=2, comments=None)
     except ValueError as error:
         raise refused(
             path, f"a line cannot be read: {error}", "give three numbers x y z"

@@ -1,7 +1,8 @@
 """Whether a PLY, PCD or STL file holds what its header promises.
 
-Open3D fills what it cannot read with zeros and only warns. So the size of a file is compared
-with its header before it is read: exactly for point clouds, as a lower bound for faces. A text
+Open3D leaves what it cannot read uninitialised and only warns. So the size of a file is compared
+with its header before it is read: exactly for point clouds, as a lower bound for faces; and the
+points of text files are handed out as lines, to be read by a parser that fails aloud. A text
 file that is cut within its very last number cannot be told from a whole one.
 """
 
@@ -34,8 +35,36 @@ class PlyElement:
     has_list: bool
 
 
-def ply_elements(path: Path) -> tuple[PlyElement, ...]:
-    """The elements of a PLY file that is long enough to hold them; else GeometryError."""
+@dataclass(frozen=True)
+class PlyFile:
+    """The header of a PLY file, and the lines of its body if that is text."""
+
+    elements: tuple[PlyElement, ...]
+    lines: list[str] | None
+
+    def count(self, name: str) -> int:
+        """How many of an element the header promises."""
+        return sum(e.count for e in self.elements if e.name == name)
+
+    def vertex_lines(self) -> list[str] | None:
+        """The text lines of the vertices."""
+        if self.lines is None:
+            return None
+        names = [e.name for e in self.elements]
+        before = sum(e.count for e in self.elements[: names.index("vertex")])
+        return self.lines[before : before + self.count("vertex")]
+
+
+@dataclass(frozen=True)
+class PcdFile:
+    """The column of each field of a PCD file, and the lines of its body if that is text."""
+
+    columns: dict[str, int]
+    lines: list[str] | None
+
+
+def whole_ply(path: Path) -> PlyFile:
+    """The header of a PLY file that is long enough for it; else GeometryError."""
     data = path.read_bytes()
     head, mark, body = data.partition(b"end_header")
     lines = [line.split() for line in head.decode("ascii", "replace").splitlines()]
@@ -52,12 +81,11 @@ def ply_elements(path: Path) -> tuple[PlyElement, ...]:
         least = sum(e.count * e.least_bytes for e in elements)
         if len(body) < least:
             raise truncated(path, f"{promised} in {least} bytes", f"{len(body)} bytes")
-        return elements
-    least = sum(e.count for e in elements)
+        return PlyFile(elements, None)
+    count = sum(e.count for e in elements)
     last = elements[-1] if elements else None
     width = len(last.properties) if last and not last.has_list else 1
-    _require_lines(path, body, least, width, promised)
-    return elements
+    return PlyFile(elements, _whole_lines(path, body, count, width, promised))
 
 
 def _parsed_ply(lines: list[list[str]]) -> tuple[PlyElement, ...]:
@@ -79,8 +107,8 @@ def _parsed_ply(lines: list[list[str]]) -> tuple[PlyElement, ...]:
     return tuple(elements)
 
 
-def require_whole_pcd(path: Path) -> None:
-    """GeometryError unless a PCD file holds all the points that its header promises."""
+def whole_pcd(path: Path) -> PcdFile:
+    """The header of a PCD file that holds all the points it promises; else GeometryError."""
     data = path.read_bytes()
     fields: dict[str, list[str]] = {}
     start = 0
@@ -102,14 +130,16 @@ def require_whole_pcd(path: Path) -> None:
         raise refused(path, "the PCD header is damaged", "export it again") from error
     if not {"x", "y", "z"} <= set(names):
         raise refused(path, f"no fields x y z among {' '.join(names)}", "export the coordinates")
+    columns = {name: sum(counts[:k]) for k, name in enumerate(names)}
     if kind == "ascii":
-        _require_lines(path, body, count, sum(counts), f"{count} points")
-        return
+        lines = _whole_lines(path, body, count, sum(counts), f"{count} points")
+        return PcdFile(columns, lines)
     least = count * row
     if kind == "binary_compressed":
         least = 8 + struct.unpack_from("<I", body)[0] if len(body) >= 8 else 8
     if len(body) < least:
         raise truncated(path, f"{count} points in {least} bytes", f"{len(body)} bytes")
+    return PcdFile(columns, None)
 
 
 def require_whole_stl(path: Path) -> None:
@@ -127,10 +157,11 @@ def require_whole_stl(path: Path) -> None:
         raise truncated(path, f"{count} facets", str(found))
 
 
-def _require_lines(path: Path, body: bytes, count: int, width: int, promised: str) -> None:
-    """GeometryError unless there are ``count`` lines and the last has ``width`` words."""
-    rows = [line for line in body.splitlines() if line.strip()]
-    if len(rows) < count:
-        raise truncated(path, promised, f"{len(rows)} lines")
-    if count and len(rows[count - 1].split()) < width:
+def _whole_lines(path: Path, body: bytes, count: int, width: int, promised: str) -> list[str]:
+    """The body's first ``count`` lines, the last of ``width`` words; else GeometryError."""
+    lines = [line for line in body.decode("ascii", "replace").splitlines() if line.strip()]
+    if len(lines) < count:
+        raise truncated(path, promised, f"{len(lines)} lines")
+    if count and len(lines[count - 1].split()) < width:
         raise truncated(path, promised, f"{count - 1} whole lines")
+    return lines[:count]

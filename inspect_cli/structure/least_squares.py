@@ -23,7 +23,6 @@ import numpy as np
 
 from inspect_cli.compiled import kernel
 from inspect_cli.spatial.primitives import CYLINDER, PLANE, SPHERE
-from inspect_cli.spatial.rotations import cross
 from inspect_cli.spatial.types import Matrix, Points, Vector
 
 PARAMETERS = {PLANE: 3, SPHERE: 4, CYLINDER: 5}
@@ -120,16 +119,21 @@ def normal_equations(
 
 @kernel
 def frame_of(direction: Vector) -> Matrix:
-    """A rotation (3, 3) whose last column is the unit ``direction``."""
-    other = np.zeros(3)
-    other[np.argmin(np.abs(direction))] = 1.0
-    e1 = cross(other, direction)
-    e1 /= np.sqrt(e1[0] * e1[0] + e1[1] * e1[1] + e1[2] * e1[2])
-    frame = np.empty((3, 3))
-    frame[:, 0] = e1
-    frame[:, 1] = cross(direction, e1)
-    frame[:, 2] = direction
-    return frame
+    """A rotation (3, 3) whose last column is the unit ``direction``.
+
+    Duff et al., "Building an orthonormal basis, revisited", JCGT 6 (2017).
+    """
+    x, y, z = direction[0], direction[1], direction[2]
+    sign = np.copysign(1.0, z)
+    a = -1.0 / (sign + z)
+    b = x * y * a
+    return np.array(
+        [
+            [1.0 + sign * x * x * a, b, x],
+            [sign * b, sign + y * y * a, y],
+            [-sign * x, -y, z],
+        ]
+    )
 
 
 def stepped(kind: int, model: Vector, frame: Matrix, step: Vector) -> Vector:

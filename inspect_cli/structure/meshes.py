@@ -8,7 +8,7 @@ import numpy as np
 
 from inspect_cli.spatial.types import Points, Vector
 from inspect_cli.structure.files import ReadPoints, open3d, refused, require_file, truncated
-from inspect_cli.structure.headers import ply_elements, require_whole_stl
+from inspect_cli.structure.headers import require_whole_stl, whole_ply
 
 SUFFIXES = (".stl", ".obj", ".ply")
 
@@ -26,7 +26,7 @@ def read_mesh(path: Path, samples: int, rng: np.random.Generator) -> ReadPoints:
     if suffix == ".stl":
         require_whole_stl(path)
     if suffix == ".ply":
-        promised = sum(e.count for e in ply_elements(path) if e.name == "face")
+        promised = whole_ply(path).count("face")
         if promised == 0:
             raise _without_faces(path)
     mesh = open3d().io.read_triangle_mesh(str(path))

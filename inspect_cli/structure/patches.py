@@ -8,7 +8,7 @@ from inspect_cli.schema.base import Triple
 from inspect_cli.schema.geometry import CylinderShape, PlaneShape, Shape, Side, SphereShape
 from inspect_cli.spatial.primitives import LEVEL_SINE, level_axes
 from inspect_cli.spatial.types import Points, Vector
-from inspect_cli.structure.fitting import Fit
+from inspect_cli.structure.fit import Fit
 
 COVERED = 0.99
 """A patch is the shortest stretch of each coordinate that holds this share of the points."""

@@ -14,7 +14,8 @@ from inspect_cli.schema.primitives import displaced, displaced_points
 from inspect_cli.spatial.types import Points, Vector
 from inspect_cli.structure.clouds import read_cloud
 from inspect_cli.structure.files import ReadPoints, open3d
-from inspect_cli.structure.fitting import Fit, fit_primitive
+from inspect_cli.structure.fit import Fit
+from inspect_cli.structure.fitting import fit_primitive
 from inspect_cli.structure.meshes import read_mesh
 from inspect_cli.structure.patches import bounded_shape
 

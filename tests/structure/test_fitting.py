@@ -9,7 +9,8 @@ from scipy.optimize import least_squares
 from inspect_cli.errors import GeometryError
 from inspect_cli.spatial.primitives import CYLINDER, PLANE, SPHERE, cylinder, plane
 from inspect_cli.spatial.types import Points, Structured, Vector
-from inspect_cli.structure.fitting import CODES, Fit, Kind, fit_primitive
+from inspect_cli.structure.fit import CODES, Fit, Kind
+from inspect_cli.structure.fitting import fit_primitive
 from inspect_cli.structure.least_squares import (
     PARAMETERS,
     frame_of,
@@ -132,6 +133,15 @@ def test_gradient_against_finite_differences(kind: Kind) -> None:
     np.testing.assert_allclose(A[:size, :size], jacobian.T @ jacobian, rtol=1e-5, atol=1e-4)
     r = residuals(code, model, cloud)
     np.testing.assert_allclose(g[:size], jacobian.T @ r, rtol=1e-5, atol=1e-6)
+
+
+def test_frame_is_a_rotation_around_its_direction() -> None:
+    for direction in (*np.eye(3), *-np.eye(3), *np.random.default_rng(0).normal(size=(20, 3))):
+        unit = direction / np.linalg.norm(direction)
+        frame = frame_of(unit)
+        np.testing.assert_allclose(frame @ frame.T, np.eye(3), atol=1e-14)
+        assert np.linalg.det(frame) == pytest.approx(1.0)
+        np.testing.assert_array_equal(frame[:, 2], unit)
 
 
 def test_residuals_by_hand() -> None:
