@@ -41,7 +41,8 @@ from inspect_cli.log.layout import Nanoseconds
 
 LIBRARY = "inspect-cli 1"
 """Stands in the header: the writer and the version of its conventions."""
-COMPRESSION_LEVEL = 1
+COMPRESSION_LEVEL = -5
+"""Measured numbers are mostly noise: level 1 saves 10 % more bytes for thrice the time."""
 INDEX_ENTRY = np.dtype([("log_time", "<u8"), ("offset", "<u8")])
 
 
