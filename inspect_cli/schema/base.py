@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from typing import Annotated
 
 from pydantic import AfterValidator, BaseModel, ConfigDict, Field
@@ -23,9 +24,11 @@ class Strict(BaseModel):
 
 
 def _unit_length(value: tuple[float, float, float]) -> tuple[float, float, float]:
-    norm = sum(x * x for x in value) ** 0.5
+    norm = math.hypot(*value)
     if norm < 1e-9:
         raise ValueError("a direction must not be zero")
+    if math.isinf(norm):
+        raise ValueError("a direction must be of finite length")
     return (value[0] / norm, value[1] / norm, value[2] / norm)
 
 

@@ -69,8 +69,10 @@ def load_mission(path: Path, platform: Path | None = None) -> Loaded:
     if problems or file is None or model is None or platform_file is None:
         raise SchemaError(sorted(set(problems), key=_place))
 
-    belief = file.model_dump(by_alias=True, exclude={"truth", "extends"})
-    mission = Mission.model_validate(belief)
+    # Validated already; only the truth and the origin are left behind.
+    mission = Mission.model_construct(
+        **{name: getattr(file, name) for name in Mission.model_fields}
+    )
     return Loaded(mission, file.truth, model, root, path, platform_file)
 
 

@@ -12,6 +12,9 @@ import pytest
 
 from inspect_cli.commands.init import init
 
+COLOURING = ("FORCE_COLOR", "NO_COLOR", "TTY_COMPATIBLE", "GITHUB_ACTIONS")
+"""Variables that ask for colours or forbid them."""
+
 Shell = Callable[..., subprocess.CompletedProcess[str]]
 
 
@@ -26,6 +29,7 @@ def shell(tmp_path: Path) -> Shell:
     """Runs ``python -m inspect_cli`` in an empty folder."""
     folder = tmp_path / "elsewhere"
     folder.mkdir()
+    inherited = {k: v for k, v in os.environ.items() if k not in COLOURING}
 
     def run(*arguments: str | Path, **variables: str) -> subprocess.CompletedProcess[str]:
         return subprocess.run(
@@ -34,7 +38,7 @@ def shell(tmp_path: Path) -> Shell:
             text=True,
             timeout=120,
             cwd=folder,
-            env={**os.environ, **variables},
+            env={**inherited, **variables},
             check=False,
         )
 

@@ -150,6 +150,14 @@ def test_the_resolved_mission_survives_json(campaign: Path) -> None:
             ["m.yaml:7:67: structure[0].surface.shape.normal: a direction must not be zero"],
         ),
         (
+            "normal: [-1, 0, 0]",
+            "normal: [1e308, 1e308, 1e308]",
+            [
+                "m.yaml:7:67: structure[0].surface.shape.normal: "
+                "a direction must be of finite length"
+            ],
+        ),
+        (
             "max_m: [1, 1, 1]",
             "max_m: [1, -1, 1]",
             [
@@ -245,6 +253,15 @@ def test_a_symlink_out_of_the_campaign_is_refused(campaign: Path, refusal: Refus
     (campaign / "missions" / "scans" / "link.ply").symlink_to(outside)
     (message,) = refusal("scans/tank.ply", "scans/link.ply")
     assert "m.yaml:10:14: structure[1].surface.cloud: leads out of the campaign" in message
+
+
+def test_a_direction_is_made_a_unit_whatever_its_length(campaign: Path) -> None:
+    file = campaign / "missions" / "m.yaml"
+    file.write_text(file.read_text().replace("[-1, 0, 0]", "[3e200, 0, 4e200]"))
+    shape = load_mission(file).mission.structure[0].surface.shape
+    assert shape is not None
+    assert shape.kind == "plane"
+    assert shape.normal == pytest.approx((0.6, 0.0, 0.8), abs=1e-15)
 
 
 def test_a_platform_of_the_campaign_comes_before_a_built_in_one(campaign: Path) -> None:

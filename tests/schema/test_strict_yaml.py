@@ -6,7 +6,7 @@ import math
 from pathlib import Path
 
 import pytest
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from inspect_cli.errors import SchemaError
@@ -158,11 +158,13 @@ yaml_like = st.text(
 )
 
 
+@settings(deadline=None)
 @given(st.one_of(yaml_like, st.text(max_size=40)))
 def test_any_text_is_read_or_refused(text: str) -> None:
     _read_or_refuse(text.encode("utf-8", "surrogatepass"))
 
 
+@settings(deadline=None)
 @given(st.binary(max_size=60))
 def test_any_bytes_are_read_or_refused(data: bytes) -> None:
     _read_or_refuse(data)
