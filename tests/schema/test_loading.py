@@ -151,7 +151,7 @@ def test_the_resolved_mission_survives_json(campaign: Path) -> None:
         ),
         (
             "normal: [-1, 0, 0]",
-            "normal: [1e308, 1e308, 1e308]",
+            "normal: [1.7e308, 1.7e308, 0]",
             [
                 "m.yaml:7:67: structure[0].surface.shape.normal: "
                 "a direction must be of finite length"
