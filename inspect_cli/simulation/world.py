@@ -3,8 +3,14 @@
 Surfaces become geoms whose front is the true surface: a box behind a plane, a sphere or a
 cylinder seen from outside, tangent boxes around a cylinder or sphere seen from inside. The tool's
 tip meets each through an explicit contact pair, so that stiffness, damping and friction are those
-that are stated: with constant impedance d MuJoCo's contact gives at rest f = k r / ((1 − d) Â),
-where Â is the tip's inverse inertia, so k = K (1 − d) Â makes a spring of K N/m. Likewise damping.
+that are stated.
+
+With a constant impedance d MuJoCo's normal force f obeys δ̈ + b δ̇ + k δ = R f, R = Â (1 − d)/d, δ
+the depth and Â the inverse inertia that the compiler gives the tip. A body of mass m pressed by F
+then moves like (m + 1/R) δ̈ + (b/R) δ̇ + (k/R) δ = F: a spring and a damper, and a mass 1/R that
+is nowhere. A small d makes that mass a few per cent of the vehicle's; k/R = K and b/R = 2 ζ √(K m)
+are set by ``solref``, whose negative numbers MuJoCo divides by d. Friction sticks by the same law
+without δ: the tip creeps by R/(impratio b) metres per second and newton, a tenth of a millimetre.
 """
 
 from __future__ import annotations
@@ -19,7 +25,11 @@ from inspect_cli.spatial.types import Structured, Vector
 from inspect_cli.truth.geometry import StructureTruth
 from inspect_cli.vehicles.kinds import Tip, Vehicle
 
-CONTACT_IMPEDANCE = 0.9
+CONTACT_IMPEDANCE = 0.05
+FRICTION_STIFFENING = 1000.0
+"""MuJoCo's ``impratio``: how much less friction yields than the normal direction."""
+FRICTION_DAMPING_PS = 100.0
+"""b of the friction, 1/s; well below the physics rate, so that a stuck tip does not chatter."""
 WALL_THICKNESS_M = 0.2
 FACET_SAGITTA_M = 0.0005
 """How far a tangent box may stand off a concave surface."""
@@ -31,6 +41,7 @@ def build_world(
 ) -> mujoco.MjModel:
     """Compile the true world."""
     spec = vehicle.nominal_spec()
+    spec.option.impratio = FRICTION_STIFFENING
     _change_masses(spec, platform)
     _add_ground(spec)
     pairs = _add_surfaces(spec, structure)
@@ -104,8 +115,10 @@ def _add_facets(spec: mujoco.MjSpec, name: str, prims: Structured) -> list[str]:
     counts = (1, 1)
     if prims["kind"][0] != PLANE:
         radius = prims["radius"][0]
-        width = 2.0 * np.sqrt(2.0 * radius * FACET_SAGITTA_M)
-        along = 1 if prims["kind"][0] == CYLINDER else int(np.ceil(2.0 * half[1] / width))
+        is_cylinder = prims["kind"][0] == CYLINDER
+        # A facet's corner stands off by w²/8r, and on a sphere by as much again.
+        width = np.sqrt((8.0 if is_cylinder else 4.0) * radius * FACET_SAGITTA_M)
+        along = 1 if is_cylinder else int(np.ceil(2.0 * half[1] / width))
         counts = (int(np.ceil(2.0 * half[0] / width)), along)
     size = half / np.array(counts)
     names = []
@@ -153,9 +166,11 @@ def _add_contact_sensor(spec: mujoco.MjSpec, body: str) -> None:
 
 
 def _set_tip_contact(model: mujoco.MjModel, tip: Tip, n_pairs: int) -> None:
-    inverse_inertia = model.body_invweight0[model.body("tool").id][0]
-    share = (1.0 - CONTACT_IMPEDANCE) * inverse_inertia
-    damping = 2.0 * tip.damping_ratio * np.sqrt(tip.stiffness_npm / inverse_inertia)
+    """Spring, damper and friction of the tip; the damping ratio is that of the whole vehicle."""
+    mass = model.body_subtreemass[model.body("core").id]
+    share = (1.0 - CONTACT_IMPEDANCE) * model.body_invweight0[model.body("tool").id][0]
+    damping = 2.0 * tip.damping_ratio * np.sqrt(tip.stiffness_npm * mass)
     for index in range(n_pairs):
         model.pair_solref[index] = (-tip.stiffness_npm * share, -damping * share)
+        model.pair_solreffriction[index] = (0.0, -FRICTION_DAMPING_PS * CONTACT_IMPEDANCE)
         model.pair_solimp[index] = (CONTACT_IMPEDANCE, CONTACT_IMPEDANCE, 1e-3, 0.5, 2.0)
