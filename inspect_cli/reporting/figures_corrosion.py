@@ -19,6 +19,8 @@ from inspect_cli.reporting.potential_scale import (
 )
 
 PERCENTS = (1, 2, 5, 10, 20, 30, 50, 70, 80, 90, 95, 98, 99)
+TEXT_SIDES = ("top center", "bottom center", "middle right", "middle left")
+"""Taken in turn, so that the labels of equal readings do not cover each other."""
 CLASS_LINE: Json = {"color": INK, "width": 1, "dash": "dash"}
 
 
@@ -58,7 +60,6 @@ def cumulative_figure(points: Sequence[ReadPoint]) -> Figure | None:
     }
     low, high = potential_range(valid)
     layout: Json = {
-        "margin": {"t": 16},
         "hovermode": "closest",
         "xaxis": {
             "title": {"text": "share of readings at least as positive (%), normal scale"},
@@ -102,7 +103,7 @@ def resistivity_figure(points: Sequence[ReadPoint]) -> Figure | None:
                     "x": [p.point.potential_mv for p in own],
                     "y": [p.point.resistivity_ohm_m for p in own],
                     "text": [words(p.point.label) if name != "none" else "" for p in own],
-                    "textposition": "top center",
+                    "textposition": [TEXT_SIDES[k % len(TEXT_SIDES)] for k in range(len(own))],
                     "textfont": {"size": 11},
                     "marker": {
                         "symbol": style.symbol,
@@ -122,7 +123,7 @@ def resistivity_figure(points: Sequence[ReadPoint]) -> Figure | None:
             "title": {"text": "resistivity (Ω·m), log scale"},
             "type": "log",
             "range": _decades(known),
-            "dtick": "D2",
+            "tickvals": [m * 10**e for e in range(-1, 6) for m in (1, 2, 5)],
         },
         "shapes": [
             *(_boundary("x", value) for value in (PASSIVE_ABOVE_MV, ACTIVE_BELOW_MV)),

@@ -23,7 +23,8 @@ from inspect_cli.schema.plan import Plan, PlannedSurface
 SAME_LINE_M = 1e-3
 """Planned points whose coordinate differs by less stand in one row or column."""
 MAX_WRITTEN_VALUES = 80
-MAP_WIDTH_PX = 900.0
+MAP_WIDTH_PX = 1000.0
+MAP_FRAME_PX = 44 + 110
 
 
 def map_figures(points: Sequence[ReadPoint], plan: Plan) -> Iterator[Figure]:
@@ -49,7 +50,7 @@ def _map(
     height_px = MAP_WIDTH_PX * (v_high - v_low) / (u_high - u_low)
     layout: Json = {
         "coloraxis": scale,
-        "margin": {"t": 44, "r": 20},
+        "margin": {"t": 44, "r": 20, "b": 110},
         "hovermode": "closest",
         "xaxis": {"title": {"text": "u (m)"}, "range": [u_low, u_high], "constrain": "domain"},
         "yaxis": {
@@ -73,7 +74,7 @@ def _map(
         f"Map of {len(valid)} valid and {len(invalid)} invalid half-cell readings.",
         traces,
         layout,
-        int(min(max(height_px, 260.0), 640.0)),
+        MAP_FRAME_PX + int(min(max(height_px, 160.0), 560.0)),
     )
 
 
@@ -154,6 +155,7 @@ def _contours(
 
 def _valid_markers(points: Sequence[ReadPoint], everywhere: Sequence[ReadPoint]) -> list[Json]:
     written = len(points) <= MAX_WRITTEN_VALUES
+    sides = _text_sides(points)
     traces = [colour_bar("scatter")] if points else []
     for name, style in ASTM_STYLES.items():
         own = [p for p in points if p.point.astm_class == name]
@@ -165,6 +167,7 @@ def _valid_markers(points: Sequence[ReadPoint], everywhere: Sequence[ReadPoint])
                 "name": f"{style.label} (ASTM C876)",
                 "mode": "markers+text" if written else "markers",
                 "text": [_written(p) for p in own],
+                "textposition": [sides[p.point.index] for p in own],
                 "marker": {
                     "symbol": style.symbol,
                     "size": 15,
@@ -175,6 +178,16 @@ def _valid_markers(points: Sequence[ReadPoint], everywhere: Sequence[ReadPoint])
             }
         )
     return traces
+
+
+def _text_sides(points: Sequence[ReadPoint]) -> dict[int, str]:
+    """Above each point, by its index; in a single row by turns above and below, for room."""
+    one_row = len(_lines([p.point.uv_m[1] for p in points if p.point.uv_m])) == 1
+    ordered = sorted(points, key=lambda p: p.point.uv_m or (0.0, 0.0))
+    return {
+        p.point.index: "bottom center" if one_row and k % 2 else "top center"
+        for k, p in enumerate(ordered)
+    }
 
 
 def _invalid_markers(points: Sequence[ReadPoint]) -> list[Json]:

@@ -8,7 +8,7 @@ import numpy as np
 
 from inspect_cli.log.reader import RunLog
 from inspect_cli.records import Estimate, State
-from inspect_cli.reporting.figure import Figure, Json, merged, numbers, words
+from inspect_cli.reporting.figure import Figure, Json, numbers, words
 from inspect_cli.reporting.palette import ESTIMATE, INK, MUTED, REFERENCE, TIP, TRUTH, LineStyle
 from inspect_cli.reporting.points import ReadPoint
 from inspect_cli.reporting.potential_scale import colour_axis, colour_bar, colours, hover_text
@@ -36,25 +36,26 @@ def scene_figure(log: RunLog, plan: Plan, points: Sequence[ReadPoint]) -> Figure
     ):
         rows = rows_of(log, record)
         if rows is not None:
-            traces.append(_path(name, rows[position], style, "solid"))
+            shown = "legendonly" if style is TIP else True
+            traces.append({**_path(name, rows[position], style, "solid"), "visible": shown})
     traces += [*_readings(points), *_cloud(log)]
     layout: Json = {
-        "margin": {"l": 0, "r": 0, "t": 30, "b": 0},
-        "coloraxis": merged(colour_axis(points), {"colorbar": {"len": 0.5}}),
+        "margin": {"l": 0, "r": 0, "t": 30, "b": 70},
+        "coloraxis": colour_axis(points),
         "scene": {
             "aspectmode": "data",
-            "camera": {"eye": _eye(plan), "up": {"x": 0, "y": 0, "z": 1}},
+            "camera": {"eye": _eye(plan), "center": {"x": 0, "y": 0, "z": -0.2}},
             **{f"{axis}axis": {"title": {"text": f"{axis} (m)"}} for axis in "xyz"},
         },
     }
     return Figure(
         "scene",
         "Structure as the planner believed it, path of the body, and where the tool was believed "
-        "to touch, coloured by potential; equal scales on all axes. Drag to turn, scroll to zoom.",
+        "to touch, coloured by potential; equal scales on all axes. Drag to turn.",
         "Three-dimensional view of the structure, the path and the readings.",
         traces,
         layout,
-        560,
+        600,
     )
 
 
@@ -178,5 +179,5 @@ def _eye(plan: Plan) -> Json:
     length = float(np.linalg.norm(level))
     level = level / length if length > 0.3 else np.array([-1.0, 0.0, 0.0])
     side = np.array([-level[1], level[0], 0.0])
-    eye = 1.15 * level + 0.75 * side + np.array([0.0, 0.0, 0.45])
+    eye = 1.45 * level + 0.95 * side + np.array([0.0, 0.0, 0.55])
     return dict(zip("xyz", np.round(eye, 3).tolist(), strict=True))

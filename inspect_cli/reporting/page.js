@@ -7,7 +7,7 @@
   const coarse = window.matchMedia("(pointer: coarse)").matches;
   const hovers = window.matchMedia("(hover: hover)").matches;
   const buttons2d = [["toImage", "zoom2d", "pan2d", "resetScale2d"]];
-  const buttons3d = [["toImage", "orbitRotation", "resetCameraDefault3d"]];
+  const buttons3d = [["toImage", "zoom3d", "pan3d", "orbitRotation", "resetCameraDefault3d"]];
   const timed = [];
   const plots = [];
   let failures = 0;
@@ -41,6 +41,8 @@
     await Plotly.newPlot(plot, figure.data, figure.layout, {
       responsive: true,
       displaylogo: false,
+      // The wheel belongs to the page; zooming in space is a button.
+      scrollZoom: false,
       displayModeBar: hovers ? "hover" : false,
       modeBarButtons: figure.layout.scene ? buttons3d : buttons2d,
     });
@@ -51,11 +53,13 @@
   }
 
   // Paper has another width than the window, and printing does not resize what stands in it.
-  function fitAll() {
-    for (const plot of plots) Plotly.Plots.resize(plot);
+  // While the class is set, the style sheet gives the page its printed width.
+  function fitTo(paper) {
+    root.classList.toggle("printing", paper);
+    for (const plot of plots) Plotly.relayout(plot, { autosize: true });
   }
-  window.addEventListener("beforeprint", fitAll);
-  window.addEventListener("afterprint", fitAll);
+  window.addEventListener("beforeprint", () => fitTo(true));
+  window.addEventListener("afterprint", () => fitTo(false));
 
   async function drawAll() {
     for (const script of document.querySelectorAll("script[data-plot]")) {

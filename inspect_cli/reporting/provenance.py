@@ -52,7 +52,11 @@ def _files(log: RunLog) -> Markup:
         [name, number(len(data), 0), element("code", hashlib.sha256(data).hexdigest())]
         for name, data in sorted(log.attachments.items())
     ]
-    columns = [Column("Attachment"), Column("Size", "bytes", numeric=True), Column("SHA-256")]
+    columns = [
+        Column("Attachment"),
+        Column("Size", "bytes", numeric=True),
+        Column("SHA-256", prose=True),
+    ]
     return table("Files that the log carries.", columns, rows)
 
 
@@ -64,6 +68,6 @@ def _chosen(log: RunLog) -> Markup:
     rows = [[name, reason] for name, reason in sorted(chosen.items())]
     return table(
         "Numbers of the platform that no source gives, and why they were chosen.",
-        [Column("Number"), Column("Reason")],
+        [Column("Number"), Column("Reason", prose=True)],
         rows,
     )

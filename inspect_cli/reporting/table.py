@@ -14,11 +14,20 @@ MINUS = "\u2212"
 
 @dataclass(frozen=True)
 class Column:
-    """A column's heading with its unit, and whether its cells are numbers, set flush right."""
+    """A column's heading with its unit, and what its cells hold."""
 
     heading: str
     unit: str = ""
     numeric: bool = False
+    """Numbers are set flush right and never broken."""
+    prose: bool = False
+    """Sentences keep a readable width where the table has to scroll."""
+
+    @property
+    def attributes(self) -> dict[str, str]:
+        """What the style sheet needs to know of a cell in this column."""
+        kind = "number" if self.numeric else "prose" if self.prose else ""
+        return {"class_": kind} if kind else {}
 
 
 def number(value: float | None, digits: int) -> str:
@@ -67,17 +76,14 @@ def chip(text: str, kind: str) -> Markup:
 def _heading(column: Column) -> Markup:
     unit = element("span", column.unit, class_="unit") if column.unit else Markup("")
     text = joined(column.heading, Markup(" ") if column.unit else "", unit)
-    if column.numeric:
-        return element("th", text, scope="col", class_="number")
-    return element("th", text, scope="col")
+    return element("th", text, scope="col", **column.attributes)
 
 
 def _row(columns: Sequence[Column], cells: Sequence[str]) -> Markup:
     written = []
     for k, (column, cell) in enumerate(zip(columns, cells, strict=True)):
-        kind = {"class_": "number"} if column.numeric else {}
         if k == 0:
-            written.append(element("th", cell, scope="row", **kind))
+            written.append(element("th", cell, scope="row", **column.attributes))
         else:
-            written.append(element("td", cell, **kind))
+            written.append(element("td", cell, **column.attributes))
     return element("tr", *written)

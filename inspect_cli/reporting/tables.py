@@ -44,13 +44,13 @@ TRUE_FIELDS = (
 def checks_table(checks: Sequence[Check]) -> Markup:
     """Every acceptance entry with its bounds, the published row it answers, and our value."""
     columns = [
-        Column("Check"),
+        Column("Check", prose=True),
         Column("Reference"),
         Column("Required", numeric=True),
         Column("Measured", numeric=True),
         Column("Unit"),
         Column("Verdict"),
-        Column("Remark"),
+        Column("Remark", prose=True),
     ]
     return table(
         "Acceptance checks: what the mission requires, the row of the ledger of published results "
@@ -96,7 +96,7 @@ def points_table(points: Sequence[ReadPoint]) -> Markup:
         Column("Corrosion", "combined"),
         Column("Probe force", "N", numeric=True),
         Column("Contact", "s", numeric=True),
-        Column("Validity"),
+        Column("Validity", prose=True),
     ]
     return table("Readings by point.", columns, [_point_row(p) for p in points], wide=True)
 
@@ -187,7 +187,7 @@ def classes_table(points: Sequence[ReadPoint]) -> Markup:
     columns = [
         Column("Class"),
         Column("Potential against CSE"),
-        Column("Probability at the time of measurement"),
+        Column("Probability at the time of measurement", prose=True),
         Column("Readings", numeric=True),
         Column("Share", numeric=True),
     ]
@@ -200,7 +200,7 @@ def verdicts_table(points: Sequence[ReadPoint]) -> Markup:
     for name in CORROSION_ROWS:
         own = [p.point.label for p in points if p.point.corrosion == name]
         rows.append([_class_chip(name), str(len(own)), ", ".join(own) or NOTHING])
-    columns = [Column("Corrosion"), Column("Readings", numeric=True), Column("Points")]
+    columns = [Column("Corrosion"), Column("Readings", numeric=True), Column("Points", prose=True)]
     return table("Combined verdict of potential and resistivity.", columns, rows)
 
 
@@ -218,7 +218,12 @@ def metrics_table(caption: str, result: Result, groups: Sequence[str]) -> Markup
     ]
     if not rows:
         return Markup("")
-    columns = [Column("Metric"), Column("Value", numeric=True), Column("Unit"), Column("Name")]
+    columns = [
+        Column("Metric", prose=True),
+        Column("Value", numeric=True),
+        Column("Unit"),
+        Column("Name"),
+    ]
     return table(caption, columns, rows)
 
 
@@ -256,11 +261,11 @@ def fits_table(plan: Plan) -> Markup:
     columns = [
         Column("Surface"),
         Column("Shape"),
-        Column("Source and method"),
+        Column("Source and method", prose=True),
         Column("Points", numeric=True),
         Column("Inliers", "%", numeric=True),
         Column("RMS", "mm", numeric=True),
-        Column("Standard deviations of the parameters"),
+        Column("Standard deviations of the parameters", prose=True),
     ]
     return table("Surfaces as the planner believed them.", columns, rows)
 
@@ -270,7 +275,7 @@ def events_table(log: RunLog, most: int = 200) -> Markup:
     if not log.events:
         return Markup("")
     rows = [[number(event.t_s, 2), str(event.level), event.text] for event in log.events[:most]]
-    columns = [Column("Time", "s", numeric=True), Column("Level"), Column("Event")]
+    columns = [Column("Time", "s", numeric=True), Column("Level"), Column("Event", prose=True)]
     left_out = len(log.events) - len(rows)
     caption = "Events." if left_out <= 0 else f"Events; {left_out} later ones are in the log."
     return table(caption, columns, rows)

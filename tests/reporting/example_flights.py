@@ -258,6 +258,8 @@ def _truth(
     state["p_WT"] = tip
     state["p_WB"] = tip - [ARM_M, 0.0, 0.0]
     state["q_WB"] = _small_rotation(_wobble(rng, n, 3, 0.006))
+    w, x, y, z = np.sqrt(0.5) * state["q_WB"].T  # turned by 90° about y_B
+    state["q_WT"] = np.column_stack([w - y, x - z, w + y, x + z])
     state["f_normal"] = np.where(touching, FORCE_N * depth / PRESS_M, 0.0)
     state["wrench_ext_B"][:, 0] = -state["f_normal"]
     state["wrench_ext_B"][:, 1:3] = _wobble(rng, n, 2, 0.1)

@@ -1,0 +1,43 @@
+"""Reports of plausible flights."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import pytest
+from example_flights import Flight, survey
+from report_pages import Page, Reported
+
+from inspect_cli.metrics.evaluate import evaluate
+from inspect_cli.reporting.report import write_report
+
+
+@pytest.fixture
+def report(tmp_path: Path) -> Callable[[Flight], Reported]:
+    """Evaluates a flight and writes its report."""
+
+    def write(flight: Flight) -> Reported:
+        log = flight.log()
+        result = evaluate(log)
+        path = write_report(log, result, tmp_path)
+        return Reported(flight, result, path, Page(path.read_text(encoding="utf-8")))
+
+    return write
+
+
+@pytest.fixture(scope="session")
+def platform_file(root: Path) -> Path:
+    """The platform whose numbers the example flights carry."""
+    return root / "platforms" / "tilt_rotor_hexarotor.yaml"
+
+
+@pytest.fixture
+def fly(platform_file: Path) -> Callable[..., Flight]:
+    """``survey`` with the built-in platform."""
+
+    def build(*args: Any, **options: Any) -> Flight:
+        return survey(platform_file, *args, **options)
+
+    return build

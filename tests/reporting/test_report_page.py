@@ -1,0 +1,232 @@
+"""The page as a whole: self-contained, reproducible, escaped, complete for every kind of flight."""
+
+from __future__ import annotations
+
+import re
+import time
+from collections.abc import Callable
+
+import numpy as np
+import pytest
+from example_flights import Flight, spoil
+from plotly.offline import get_plotlyjs
+from report_pages import Reported, decoded
+
+from inspect_cli.metrics.corrosion import COMBINED_RULE
+from inspect_cli.metrics.evaluate import evaluate
+from inspect_cli.records import (
+    Command,
+    Estimate,
+    InvalidReason,
+    Mode,
+    Probe,
+    Reading,
+    Reference,
+    State,
+    SurfaceEstimate,
+    TrueContact,
+)
+from inspect_cli.reporting.report import report_html, write_report
+
+Fly = Callable[..., Flight]
+Report = Callable[[Flight], Reported]
+
+EVIL = "</script><script>document.documentElement.dataset.pwned='1'</script><b>&amp;"
+
+
+def test_a_completed_flight_is_told_in_order(fly: Fly, report: Report) -> None:
+    acceptance = (
+        {"metric": "contact.points_valid", "min": 9, "ref": "A8.map"},
+        {"metric": "contact.force_peak_n", "max": 0.5, "known_failure": "it presses with 1.8 N"},
+        {"metric": "contact.force_mean_n", "min": 2.5},
+    )
+    page = report(fly(acceptance=acceptance)).page
+    wanted = [
+        "Half-cell readings at 5 cm on a reinforced concrete wall",
+        "completed",
+        "9 of 9 readings are valid.",
+        "Active corrosion is indicated at points 2 and 3.",
+        "✓ pass",
+        "it presses with 1.8 N",
+        "✗ fail",
+        "This is a simulated flight.",
+        "interpretation to a specialist",
+        "not corrected for temperature",
+        "Readings by point.",
+        COMBINED_RULE,
+        "Errors of tracking and estimation.",
+        "Surfaces as the planner believed them.",
+        "SHA-256",
+    ]
+    places = [page.text.find(words) for words in wanted]
+    assert -1 not in places, wanted[places.index(-1)]
+    assert places == sorted(places)
+
+
+def test_every_figure_is_there_and_described(fly: Fly, report: Report) -> None:
+    page = report(fly(2, 3)).page
+    assert list(page.figures) == [
+        "map-1",
+        "cumulative",
+        "resistivity",
+        "position",
+        "position-error",
+        "attitude",
+        "attitude-error",
+        "force",
+        "wrench-force",
+        "wrench-torque",
+        "tof",
+        "actuators",
+        "scene",
+        "modes",
+    ]
+    plots = [attributes for _, attributes in page.tags if attributes.get("class") == "plot"]
+    assert [p["id"] for p in plots] == [f"plot-{name}" for name in page.figures]
+    assert all(p["aria-label"] for p in plots)
+    tables = sum(tag == "table" for tag, _ in page.tags)
+    assert tables == sum(tag == "caption" for tag, _ in page.tags) > 5
+
+
+def test_it_loads_nothing_and_holds_plotly_once(fly: Fly, report: Report) -> None:
+    page = report(fly()).page
+    for tag, attributes in page.tags:
+        assert "src" not in attributes, tag
+        if "href" in attributes:
+            assert str(attributes["href"]).startswith(("#", "data:")), attributes
+    style = re.search(r"<style>(.*?)</style>", page.source, re.DOTALL)
+    assert style
+    assert "url(" not in style[1]
+    assert "@import" not in style[1]
+    assert page.source.count("plotly.js v") == 1
+    policy = next(a["content"] for _, a in page.tags if "http-equiv" in a)
+    assert "default-src 'none'" in str(policy)
+    assert "unsafe-eval" not in str(policy)
+
+
+def test_same_log_same_bytes(fly: Fly, report: Report) -> None:
+    first = report(fly())
+    before = first.path.read_bytes(), (first.path.parent / "readings.csv").read_bytes()
+    time.sleep(0.01)
+    second = report(fly())
+    assert (second.path.read_bytes(), (second.path.parent / "readings.csv").read_bytes()) == before
+
+
+def test_a_long_flight_stays_small_and_quick(fly: Fly) -> None:
+    flight = fly(4, 6)  # 253 s
+    log = flight.log()
+    result = evaluate(log)
+    begin = time.process_time()
+    html = report_html(log, result, log.plan())
+    assert time.process_time() - begin < 2.0
+    assert len(html.encode()) - len(get_plotlyjs().encode()) < 3e6
+
+
+def test_what_a_user_wrote_is_text(fly: Fly, report: Report) -> None:
+    words = {"title": EVIL, "description": EVIL, "label": EVIL, "event": EVIL}
+    flight = fly(1, 3, words=words)
+    flight.status, flight.status_reason = "aborted", EVIL
+    flight.run = {"seed": 1, "versions": {EVIL: EVIL}}
+    spoil(flight, 1, InvalidReason.FORCE)
+    page = report(flight).page
+    assert page.text.count(EVIL) >= 8
+    executed = [text for attributes, text in page.scripts if attributes.get("type") is None]
+    assert len(executed) == 2
+    assert not any("pwned" in text for text in executed)
+    assert not any(tag == "b" for tag, _ in page.tags)
+    # Plotly reads tags in labels, so there the text arrives with entities.
+    text = page.figures["map-1"]["data"][1]["text"][0]
+    assert "<script" not in text
+    assert "&lt;/script&gt;&lt;script&gt;" in text
+
+
+def without_truth(flight: Flight) -> None:
+    flight.without_truth()
+
+
+def without_valid_reading(flight: Flight) -> None:
+    for k in range(9):
+        spoil(flight, k, InvalidReason.OPEN_CIRCUIT)
+
+
+def wall_missing(flight: Flight) -> None:
+    flight.channels[Reading.topic] = flight.rows(Reading)[:0]
+    flight.status, flight.status_reason = "aborted", "no surface within reach of target 1"
+    reference = flight.rows(Reference)
+    reference["mode"][reference["t_s"] > 9.0] = Mode.HOVER
+    contact = flight.rows(TrueContact)
+    contact["surface"], contact["potential"] = -1.0, np.nan
+    flight.rows(SurfaceEstimate)["valid"] = 0.0
+
+
+def cut_early(flight: Flight) -> None:
+    flight.cut_at(20.0)
+
+
+def cut_at_once(flight: Flight) -> None:
+    flight.cut_at(0.0)
+
+
+def diverged(flight: Flight) -> None:
+    state, estimate = flight.rows(State), flight.rows(Estimate)
+    state["p_WB"][5000:] = 1e200
+    state["q_WB"][5000:] = np.nan
+    state["f_normal"][5000:] = np.inf
+    estimate["q_WB"][5000:] = 0.0
+    estimate["wrench_B"][5000:] = np.nan
+    flight.status, flight.status_reason = "diverged", "bad acceleration"
+
+
+def without_channels(flight: Flight) -> None:
+    for record in (Command, Probe, Reference, SurfaceEstimate):
+        del flight.channels[record.topic]
+
+
+@pytest.mark.parametrize(
+    ("change", "sentence"),
+    [
+        (without_truth, "9 of 9 readings are valid."),
+        (without_valid_reading, "Without a valid reading nothing can be said about corrosion."),
+        (wall_missing, "The flight was aborted. Reason: no surface within reach of target 1."),
+        (cut_early, "The log was cut off: what follows ends there."),
+        (cut_at_once, "The log was cut off"),
+        (diverged, "The simulation diverged: the flight is not to be used."),
+        (without_channels, "9 of 9 readings are valid."),
+    ],
+)
+def test_every_kind_of_end_is_reported(
+    fly: Fly, report: Report, change: Callable[[Flight], None], sentence: str
+) -> None:
+    flight = fly()
+    change(flight)
+    page = report(flight).page
+    assert sentence in page.text
+    for name, figure in page.figures.items():
+        for line in figure["data"]:
+            if line["type"] in ("scatter", "scatter3d", "bar") and isinstance(line["x"], dict):
+                columns = [line[axis] for axis in "xyz" if isinstance(line.get(axis), dict)]
+                assert len({len(decoded(column)) for column in columns}) == 1, name
+
+
+def test_a_real_flight_claims_no_simulation(fly: Fly, report: Report) -> None:
+    page = report(fly().without_truth()).page
+    assert "simulated" not in page.text
+    names = {line.get("name") for figure in page.figures.values() for line in figure["data"]}
+    assert not any("truth" in str(name) for name in names)
+    assert "estimate − reference" in names
+
+
+def test_one_point_and_other_vehicles(fly: Fly, report: Report) -> None:
+    page = report(fly(1, 1, n_rotors=4, n_joints=0)).page
+    assert "1 of 1 readings is valid." in page.text
+    panels = [k for k in page.figures["actuators"]["layout"] if k.startswith("yaxis")]
+    assert len(panels) == 2  # thrust and saturation; a vehicle without joints has no third
+    page = report(fly(1, 2, n_rotors=8, n_joints=11)).page
+    assert len(page.figures["actuators"]["data"]) == 2 * (8 + 11) + 1
+
+
+def test_write_report_returns_the_page(fly: Fly, tmp_path) -> None:
+    log = fly(1, 1).log()
+    path = write_report(log, evaluate(log), tmp_path / "new" / "folder")
+    assert path == tmp_path / "new" / "folder" / "report.html"
+    assert sorted(p.name for p in path.parent.iterdir()) == ["readings.csv", "report.html"]
