@@ -20,11 +20,17 @@ class Posture:
     """A whole vehicle at rest: the body's pose and the angles of its arm.
 
     ``p_WB`` (3,) m in W; ``q_WB`` (4,) wxyz; ``arm_angle`` (n_arm,) rad, empty for a rigid arm.
+    Capabilities take an articulated arm without angles as one at rest, at zero.
     """
 
     p_WB: Vector
     q_WB: Vector
     arm_angle: Vector = field(default_factory=lambda: np.empty(0))
+
+
+def at_origin(arm_angle: Vector) -> Posture:
+    """The posture whose body frame is W: what is asked of it in W is answered in B."""
+    return Posture(np.zeros(3), np.array([1.0, 0.0, 0.0, 0.0]), arm_angle)
 
 
 @dataclass(frozen=True)
@@ -47,7 +53,7 @@ class Capabilities(Protocol):
 
     @property
     def lengths(self) -> Lengths:
-        """The numbers that shapes in records refer to (``n_rotors``, ``n_joints``)."""
+        """The numbers that shapes in records refer to (``n_rotors``, ``n_joints``, ``n_arm``)."""
         ...
 
     @property

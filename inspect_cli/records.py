@@ -9,8 +9,10 @@ length one (``.array``): cheap to hand to a kernel, and one assignment logs it.
     estimate.p_WB[:] = 0.0        # a view into the array
     estimate.t_s = 0.0            # scalars are assigned
 
-Shapes may name a length that the platform decides (``"n_rotors"``, ``"n_joints"``). A platform
-kind adds fields of its own by subclassing a record. Frames: see ``inspect_cli.spatial``.
+Shapes may name a length that the vehicle decides: ``n_rotors``, ``n_joints`` (tilts, then arm)
+and ``n_arm`` (the arm's share of the joints); one that it does not name is 0.
+
+Frames: see ``inspect_cli.spatial``.
 """
 
 from __future__ import annotations
@@ -43,7 +45,7 @@ class Field:
 
     def resolved_shape(self, lengths: Lengths) -> tuple[int, ...]:
         """The shape in numbers."""
-        return tuple(lengths[n] if isinstance(n, str) else n for n in self.shape)
+        return tuple(lengths.get(n, 0) if isinstance(n, str) else n for n in self.shape)
 
 
 class ArrayField(Field):
@@ -143,6 +145,7 @@ class State(Record):
     a_WB_W = vector(3, "m/s²", "W", "acceleration of the body's origin during the last step")
     alpha_WB_B = vector(3, "rad/s²", "B", "angular acceleration during the last step")
     p_WT = vector(3, "m", "W", "position of the tool's tip")
+    q_WT = vector(4, "1", "W", "attitude of the tool, unit quaternion wxyz")
     f_tool_W = vector(3, "N", "W", "contact force on the tool's tip")
     f_normal = scalar("N", "normal component of the tool's contact force, pressing is positive")
     f_body = scalar("N", "contact force on anything but the tool and the landing gear")
@@ -275,6 +278,7 @@ class Reference(Record):
     a_WB_W = vector(3, "m/s²", "W", "acceleration of the body's origin")
     alpha_WB_B = vector(3, "rad/s²", "B", "angular acceleration, in the reference's B")
     p_WT = vector(3, "m", "W", "position of the tool's tip")
+    arm_angle = vector("n_arm", "rad", "", "angles of the arm's joints")
     mode = scalar("1", "mode of the mission executive, by number")
     target = scalar("1", "index of the target in the plan, −1 for none")
 

@@ -114,10 +114,15 @@ class ImpedanceController:
         self, body: RigidBody, model: ControlModel, profile: ImpedanceProfile, R_BT: Matrix
     ) -> None:
         self._body = body
+        self._profile = profile
         self._shaping = shaping_matrices(profile, R_BT)
         self._stiffness = np.array(model.stiffness_npm + model.stiffness_nmprad)
         self._damping = np.array(model.damping_nspm + model.damping_nmsprad)
         self.weight_B = np.zeros(3)
+
+    def turn_tool(self, R_BT: Matrix) -> None:
+        """Follow an arm that turned its tool in B."""
+        self._shaping = shaping_matrices(self._profile, R_BT)
 
     def update(self, estimate: Estimate, reference: Reference, command: Command) -> None:
         """Write ``command.wrench_B``."""

@@ -13,9 +13,8 @@ import math
 import numpy as np
 
 from inspect_cli.compiled import kernel
-from inspect_cli.records import Estimate, SurfaceEstimate
+from inspect_cli.records import SurfaceEstimate
 from inspect_cli.schema.platform import TofModel
-from inspect_cli.spatial.rotations import rotate
 from inspect_cli.spatial.types import Matrix, Points, Vector
 
 MIN_POINTS = 30
@@ -32,31 +31,26 @@ MIN_COSINE = 0.26
 
 
 class LocalSurface:
-    """The least-squares plane through the points around the tool's axis.
+    """The least-squares plane through the points around the tool's axis."""
 
-    ``p_BT`` (3,) m is the tool's tip and ``R_BT`` (3, 3) its orientation in B.
-    """
-
-    def __init__(self, model: TofModel, p_BT: Vector, R_BT: Matrix) -> None:
+    def __init__(self, model: TofModel) -> None:
         self.model = model
-        self._p_BT = np.array(p_BT, dtype=np.float64)
-        self._R_BT = np.ascontiguousarray(R_BT)
-        self._p_DT: Vector = self._R_BT.T @ (self._p_BT - np.array(model.position_B_m))
 
-    def update(self, points_D: Points, estimate: Estimate, out: SurfaceEstimate) -> None:
+    def update(
+        self, points_D: Points, p_WD: Vector, p_WT: Vector, R_WT: Matrix, out: SurfaceEstimate
+    ) -> None:
         """Fit ``points_D`` (n, 3), m, in D (NaN for misses) and pose the plane in W.
 
-        The pose is the *estimated* one. ``out.valid`` is 0 when there are too few points, when
-        they are no plane or no more than a line, or when anything is not a number.
+        ``p_WD`` (3,) m is where the camera is believed to be, ``p_WT`` (3,) m and ``R_WT`` (3, 3)
+        the tool. ``out.valid`` is 0 when there are too few points, when they are no plane or no
+        more than a line, or when anything is not a number.
         """
         n_points, distance, rms, spread, cosine, range_ = fit_local_plane(
             points_D,
-            self._p_DT,
+            R_WT.T @ (p_WT - p_WD),
             self.model.neighbourhood_m,
-            self._p_BT,
-            self._R_BT,
-            estimate.p_WB,
-            estimate.q_WB,
+            p_WT,
+            R_WT,
             out.p_WC,
             out.n_W,
         )
@@ -69,7 +63,6 @@ class LocalSurface:
             and cosine >= MIN_COSINE
             and math.isfinite(distance + sum(out.p_WC) + sum(out.n_W))
         )
-        out.t_s = estimate.t_s
         out.distance = distance
         out.n_points = n_points
         out.rms = rms
@@ -81,10 +74,8 @@ def fit_local_plane(
     points_D: Points,
     p_DT: Vector,
     radius: float,
-    p_BT: Vector,
-    R_BT: Matrix,
-    p_WB: Vector,
-    q_WB: Vector,
+    p_WT: Vector,
+    R_WT: Matrix,
     p_WC: Vector,
     n_W: Vector,
 ) -> tuple[float, float, float, float, float, float]:
@@ -113,15 +104,11 @@ def fit_local_plane(
     sign = -1.0 if axes[2, low] > 0.0 else 1.0
     n_T = np.array([sign * axes[0, low], sign * axes[1, low], sign * axes[2, low]])
     to_plane = n_T[0] * mean_T[0] + n_T[1] * mean_T[1] + n_T[2] * mean_T[2]
-    p_BC = _turned(R_BT, mean_T)
+    p_TC_W, turned_n = _turned(R_WT, mean_T), _turned(R_WT, n_T)
     square = 0.0
     for i in range(3):
-        p_BC[i] += p_BT[i]
         square += (mean_T[i] + p_DT[i]) * (mean_T[i] + p_DT[i])
-    p_BC_W = rotate(q_WB, p_BC)
-    turned_n = rotate(q_WB, _turned(R_BT, n_T))
-    for i in range(3):
-        p_WC[i] = p_WB[i] + p_BC_W[i]
+        p_WC[i] = p_WT[i] + p_TC_W[i]
         n_W[i] = turned_n[i]
     return float(n), to_plane / n_T[2], rms, spread, -n_T[2], np.sqrt(square)
 

@@ -25,7 +25,7 @@ from inspect_cli.guidance.trajectory import (
     to_goal,
     to_stop,
 )
-from inspect_cli.interfaces import Capabilities, Posture
+from inspect_cli.interfaces import Capabilities, Posture, at_origin
 from inspect_cli.records import Reference, SurfaceEstimate
 from inspect_cli.schema.plan import Target
 from inspect_cli.spatial.rotations import quaternion_to_matrix
@@ -101,13 +101,13 @@ class Pursuit:
         self.capabilities = capabilities
         self.reference = Reference.create(capabilities.lengths)
         self.reference.target = -1.0
-        self.arm_angle = np.array(posture.arm_angle, dtype=np.float64)
-        """Angles (n_arm,) rad that the reference asks of the arm; empty for a rigid one."""
+        self.reference.arm_angle[:] = posture.arm_angle
         self.implausible = 0
         """Surface estimates that were not followed because they contradict the plan."""
         self._trajectory = Trajectory.resting(0.0, posture)
         self._approach: _Approach | None = None
         self._arrival_s = 0.0
+        self._arm_angle = self.reference.arm_angle
         self._p_BT = self._tool_offset()
         views = self.reference.views
         self._written = (
@@ -181,8 +181,8 @@ class Pursuit:
     def write(self, t_s: float) -> None:
         """Write the motion of the instant into ``reference``."""
         stretch = self._trajectory.at(t_s)
-        if self.arm_angle.size:
-            self.arm_angle[:] = stretch.arm_motion(t_s)[0]
+        if self._arm_angle.size:
+            self._arm_angle[:] = stretch.arm_motion(t_s)[0]
             self._p_BT = self._tool_offset()
         evaluate_motion(
             t_s - stretch.start_s,
@@ -201,8 +201,7 @@ class Pursuit:
 
     def _tool_offset(self) -> Vector:
         """p_BT (3,) with the arm as it is asked now."""
-        at_origin = Posture(np.zeros(3), np.array([1.0, 0.0, 0.0, 0.0]), self.arm_angle)
-        p_BT, _ = self.capabilities.tool_pose(at_origin)
+        p_BT, _ = self.capabilities.tool_pose(at_origin(self._arm_angle))
         return np.array(p_BT, dtype=np.float64)
 
     def _posture_for(self, target: Target, surface: _Surface, depth_m: float) -> Posture | None:

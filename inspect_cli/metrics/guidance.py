@@ -7,9 +7,7 @@ import numpy as np
 from inspect_cli.metrics.flight import Flight, NotMeasured, mean, nearest
 from inspect_cli.metrics.geometry import direction_angle
 from inspect_cli.records import Mode, SurfaceEstimate, TrueContact
-from inspect_cli.schema.platform import Tool
 from inspect_cli.spatial.rotations import rotate
-from inspect_cli.spatial.types import Vector
 
 NO_SURFACE = -1.0
 
@@ -32,25 +30,12 @@ def normal_error_mean_deg(flight: Flight) -> float:
     return float(np.degrees(mean(angles)))
 
 
-def tool_axis_in_body(flight: Flight) -> Vector:
-    """z_T in B: (sin φ, 0, −cos φ) with the rigid arm's pitch φ from −z_B.
-
-    Raises:
-        NotMeasured: the platform's arm is not rigid.
-    """
-    tool = getattr(flight.platform, "tool", None)
-    if not isinstance(tool, Tool):
-        raise NotMeasured(f"a platform of kind {flight.platform.kind} has no rigid tool")
-    pitch = np.radians(tool.pitch_deg)
-    return np.array([np.sin(pitch), 0.0, -np.cos(pitch)])
-
-
 def tool_axis_error_mean_deg(flight: Flight) -> float:
     """Mean angle between z_T and the true inward normal while the tool touches, degrees."""
-    axis_B = tool_axis_in_body(flight)
     contact = flight.on_state_ticks(TrueContact)
     usable = flight.touching & flight.airborne & (contact["surface"] != NO_SURFACE)
     if not np.any(usable):
         raise NotMeasured("the tool never touched a surface")
-    axes_W = np.array([rotate(q_WB, axis_B) for q_WB in flight.state["q_WB"][usable]])
+    z_T = np.array([0.0, 0.0, 1.0])
+    axes_W = np.array([rotate(q_WT, z_T) for q_WT in flight.state["q_WT"][usable]])
     return float(np.degrees(mean(direction_angle(axes_W, -contact["n_W"][usable]))))

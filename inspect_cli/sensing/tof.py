@@ -33,21 +33,19 @@ def ray_directions(model: TofModel) -> Points:
 class TofCamera:
     """Casts the camera's rays at the true surfaces and adds range noise.
 
-    ``R_BT`` (3, 3) is the tool's orientation in the body, ``primitives`` a PRIMITIVE array of the
-    true surfaces (any number). The noise of a range r is Gaussian along the ray with standard
-    deviation ``noise_floor_m + noise_m · r²``, r in metres.
+    ``primitives`` is a PRIMITIVE array of the true surfaces (any number). The noise of a range r
+    is Gaussian along the ray with standard deviation ``noise_floor_m + noise_m · r²``, r in
+    metres. On an articulated arm the camera sits where the last joint's axes meet, so that its
+    centre stays put in B while it turns with the tool.
     """
 
-    def __init__(
-        self, model: TofModel, R_BT: Matrix, primitives: Structured, rng: np.random.Generator
-    ) -> None:
+    def __init__(self, model: TofModel, primitives: Structured, rng: np.random.Generator) -> None:
         self.model = model
         self.primitives = primitives
         self._rng = rng
         self._p_BD = np.array(model.position_B_m)
         self._rays_D = ray_directions(model)
-        self._rays_B = self._rays_D @ R_BT.T
-        self._rays_W = np.empty_like(self._rays_B)
+        self._rays_W = np.empty_like(self._rays_D)
         n_rays = self._rays_D.shape[0]
         self._ranges = np.empty(n_rays)
         self._noise = np.empty(n_rays)
@@ -55,8 +53,9 @@ class TofCamera:
         """The measured points (rows · columns, 3), m, in D; NaN for pixels without a return."""
 
     def sample(self, state: State) -> None:
-        """Fill ``points_D`` from the true pose of the body."""
-        p_WD = _aim_rays(self._p_BD, self._rays_B, state.p_WB, state.q_WB, self._rays_W)
+        """Fill ``points_D`` from the true pose of body and tool."""
+        p_WD = state.p_WB + rotate(state.q_WB, self._p_BD)
+        _turn_rays(quaternion_to_matrix(state.q_WT), self._rays_D, self._rays_W)
         nearest, farthest = self.model.range_m
         raycast(self.primitives, p_WD, self._rays_W, farthest, self._ranges)
         self._rng.standard_normal(out=self._noise)
@@ -72,15 +71,13 @@ class TofCamera:
 
 
 @kernel
-def _aim_rays(p_BD: Vector, rays_B: Points, p_WB: Vector, q_WB: Vector, rays_W: Points) -> Vector:
-    """Turn the rays into W and return the camera's centre p_WD (3,)."""
-    R = quaternion_to_matrix(q_WB)
-    for k in range(rays_B.shape[0]):
-        x, y, z = rays_B[k, 0], rays_B[k, 1], rays_B[k, 2]
+def _turn_rays(R: Matrix, rays_D: Points, rays_W: Points) -> None:
+    """Turn the rays from D into W."""
+    for k in range(rays_D.shape[0]):
+        x, y, z = rays_D[k, 0], rays_D[k, 1], rays_D[k, 2]
         rays_W[k, 0] = R[0, 0] * x + R[0, 1] * y + R[0, 2] * z
         rays_W[k, 1] = R[1, 0] * x + R[1, 1] * y + R[1, 2] * z
         rays_W[k, 2] = R[2, 0] * x + R[2, 1] * y + R[2, 2] * z
-    return p_WB + rotate(q_WB, p_BD)
 
 
 @kernel

@@ -13,7 +13,7 @@ from inspect_cli.sensing.pose import PoseSensor
 from inspect_cli.sensing.tof import TofCamera
 from inspect_cli.simulation.randomness import component_rng
 from inspect_cli.spatial.primitives import plane
-from inspect_cli.spatial.types import Matrix, Structured
+from inspect_cli.spatial.types import Structured
 from inspect_cli.truth.faults import Faults, spoil
 
 
@@ -21,19 +21,14 @@ class Instruments:
     """IMU, tracker, depth camera and half-cell probe. A call is False when nothing came."""
 
     def __init__(
-        self,
-        platform: PlatformBase,
-        R_BT: Matrix,
-        surfaces: Structured,
-        faults: Faults,
-        seed: int,
+        self, platform: PlatformBase, surfaces: Structured, faults: Faults, seed: int
     ) -> None:
         sensors = platform.sensors
         ground = plane(np.zeros(3), np.array([0.0, 0.0, 1.0]), (200.0, 200.0))
         seen = np.concatenate([surfaces, ground])
         self.imu = ImuSensor(sensors.imu, platform.rates.imu_hz, component_rng(seed, "imu"))
         self.pose = PoseSensor(sensors.pose, component_rng(seed, "pose"))
-        self.tof = TofCamera(sensors.tof, R_BT, seen, component_rng(seed, "tof"))
+        self.tof = TofCamera(sensors.tof, seen, component_rng(seed, "tof"))
         self.probe = HalfCellProbe(sensors.half_cell, component_rng(seed, "probe"))
         self._faults = faults
 

@@ -16,6 +16,7 @@ import numpy as np
 from inspect_cli.autonomy.executive import Executive, posture_of
 from inspect_cli.guidance.local_surface import LocalSurface
 from inspect_cli.guidance.pursuit import Pursuit
+from inspect_cli.interfaces import Posture
 from inspect_cli.log.writer import LogWriter
 from inspect_cli.records import State, SurfaceEstimate
 from inspect_cli.schema.plan import Plan, Target
@@ -28,6 +29,7 @@ from inspect_cli.simulation.plant import Plant
 from inspect_cli.simulation.recorder import Recorder
 from inspect_cli.simulation.world import build_world
 from inspect_cli.spatial.rotations import rotate
+from inspect_cli.spatial.types import Matrix, Vector
 from inspect_cli.truth.contact import ContactTruth
 from inspect_cli.truth.disturbances import Disturbances
 from inspect_cli.truth.faults import Faults
@@ -69,16 +71,13 @@ class Flight:
         self.plant = Plant(model, vehicle, lengths, disturbances, proximity, rates.control_hz)
         self.plan = plan
         self.contact = ContactTruth(structure)
-        self.instruments = Instruments(
-            platform, vehicle.tip.R_BT, structure.primitives, Faults(truth.faults), seed
-        )
+        self.instruments = Instruments(platform, structure.primitives, Faults(truth.faults), seed)
         self.stack = vehicle.flight_stack()
         self.guidance = Pursuit(vehicle.capabilities, posture_of(plan.start))
         self.surface = SurfaceEstimate.create()
-        tof = platform.sensors.tof
-        self._p_BD, self._R_BT = np.array(tof.position_B_m), vehicle.tip.R_BT
-        self._local_surface = LocalSurface(tof, vehicle.tip.p_BT, vehicle.tip.R_BT)
-        self._p_BT = vehicle.tip.p_BT
+        self._capabilities = vehicle.capabilities
+        self._p_BD = np.array(platform.sensors.tof.position_B_m)
+        self._local_surface = LocalSurface(platform.sensors.tof)
 
         def judge(target: Target) -> ReadingJudge:
             return ReadingJudge(platform.sensors.half_cell, target.dwell_s)
@@ -155,20 +154,27 @@ class Flight:
     def _see_surface(self, t_s: float) -> None:
         """Turn the depth image into a surface estimate."""
         estimate, points_D = self.stack.estimate, self.instruments.tof.points_D
-        self._local_surface.update(points_D, estimate, self.surface)
+        p_WD = estimate.p_WB + rotate(estimate.q_WB, self._p_BD)
+        p_WT, R_WT = self._believed_tool()
+        self._local_surface.update(points_D, p_WD, p_WT, R_WT, self.surface)
         self.surface.t_s = t_s
         self.executive.saw_surface(self.surface)
-        p_WD = estimate.p_WB + rotate(estimate.q_WB, self._p_BD)
-        self.recorder.surface(self.surface, points_D, p_WD, estimate.q_WB, self._R_BT)
+        self.recorder.surface(self.surface, points_D, p_WD, R_WT)
 
     def _sample_probe(self) -> None:
         contact = self.contact.update(self.plant.state)
         probe = self.instruments.sample_probe(self.plant.state, contact)
         if probe is None:
             return
-        estimate = self.stack.estimate
-        self.executive.probe_sampled(probe, estimate.p_WB + rotate(estimate.q_WB, self._p_BT))
+        p_WT, _ = self._believed_tool()
+        self.executive.probe_sampled(probe, p_WT)
         self.recorder.row(probe)
+
+    def _believed_tool(self) -> tuple[Vector, Matrix]:
+        """(p_WT, R_WT) by the estimate, with the arm where it was asked to be."""
+        estimate, arm_angle = self.stack.estimate, self.guidance.reference.arm_angle
+        posture = Posture(estimate.p_WB, estimate.q_WB, arm_angle)
+        return self._capabilities.tool_pose(posture)
 
     def _decide(self, t_s: float) -> None:
         """The mission rate: surroundings, divergence, executive."""

@@ -13,7 +13,7 @@ import numpy as np
 from inspect_cli.compiled import kernel
 from inspect_cli.interfaces import Posture
 from inspect_cli.records import Command, Lengths, State
-from inspect_cli.spatial.rotations import rotate_back
+from inspect_cli.spatial.rotations import matrix_to_quaternion, rotate_back
 from inspect_cli.spatial.types import Matrix, Structured, Vector
 from inspect_cli.truth.disturbances import Disturbances
 from inspect_cli.truth.proximity import Proximity
@@ -81,6 +81,7 @@ def read_state(
         row["wrench_ext_B"][3 + k] = constraint[3 + k] + applied[3 + k]
         force_W[k] = constraint[k] + applied[k]
     row["wrench_ext_B"][:3] = rotate_back(q, force_W)
+    row["q_WT"][:] = matrix_to_quaternion(tip_axes.reshape(3, 3))
     # z_T is the third column of R_WT; what presses along it is pushed back against it.
     row["f_normal"] = tip_axes[2] * contact[0] + tip_axes[5] * contact[1] + tip_axes[8] * contact[2]
     row["f_body"] = np.sqrt(contact[3] ** 2 + contact[4] ** 2 + contact[5] ** 2)
@@ -108,6 +109,7 @@ class Plant:
         self.data = mujoco.MjData(model)
         self.state = State.create(lengths)
         self._n_rotors = lengths["n_rotors"]
+        self._n_arm = lengths.get("n_arm", 0)
         self._actuators = vehicle.actuators
         self._max_turn = vehicle.actuators.joint_rate_radps / control_hz
         self._disturbances = disturbances
@@ -129,6 +131,9 @@ class Plant:
         mujoco.mj_resetData(self.model, self.data)
         self.data.qpos[:3] = posture.p_WB
         self.data.qpos[3:7] = posture.q_WB
+        # The arm's joints come last, and so do their servos: they hold what they stand at.
+        for last in (self.data.qpos, self.data.ctrl, self.data.act):
+            last[len(last) - self._n_arm :] = posture.arm_angle
         mujoco.mj_forward(self.model, self.data)
         self.observe(0.0)
 

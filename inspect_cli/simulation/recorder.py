@@ -9,8 +9,7 @@ from inspect_cli.interfaces import FlightStack
 from inspect_cli.log.writer import LogWriter
 from inspect_cli.records import Record, Reference, State, SurfaceEstimate, TrueContact
 from inspect_cli.simulation.instruments import Instruments
-from inspect_cli.spatial.rotations import quaternion_to_matrix
-from inspect_cli.spatial.types import Points
+from inspect_cli.spatial.types import Matrix, Points, Vector
 
 
 class Recorder:
@@ -54,15 +53,14 @@ class Recorder:
         self.wall_s += perf_counter() - begun
 
     def surface(
-        self, surface: SurfaceEstimate, points_D: Points, p_WD: Points, q_WB: Points, R_BT: Points
+        self, surface: SurfaceEstimate, points_D: Points, p_WD: Vector, R_WD: Matrix
     ) -> None:
         """Log a surface estimate, and once a second the depth points behind it."""
         begun = perf_counter()
         self._log.log(surface)
         if surface.t_s >= self._next_cloud_s:
             self._next_cloud_s += 1.0
-            points_W = p_WD + points_D @ (quaternion_to_matrix(q_WB) @ R_BT).T
-            self._log.point_cloud("/tof/points", surface.t_s, points_W)
+            self._log.point_cloud("/tof/points", surface.t_s, p_WD + points_D @ R_WD.T)
         self.wall_s += perf_counter() - begun
 
     def decisions(self, executive: Executive) -> None:

@@ -1,9 +1,11 @@
 """What the simulator and the commands ask of a kind of vehicle.
 
 Contract of ``nominal_spec``: the first body is named ``core`` and has a free joint; fixed to it
-are the bodies ``shell`` (what must never touch), ``gear`` (what stands on the ground) and
-``tool`` with the geom ``tip`` and the site ``tool_tip``. Actuators come in this order: one per
-rotor (control: free-air thrust, N; first-order lag), one per joint (control: angle, rad).
+are the bodies ``shell`` (what must never touch) and ``gear`` (what stands on the ground), and
+fixed to it or at the end of the arm's joints is the body ``tool`` with the geom ``tip`` and the
+site ``tool_tip``, whose axes are T's. Joints are those of the tilts, then those of the arm.
+Actuators come in this order, each with one activation, which lags behind its control: one per
+rotor (free-air thrust, N), one per joint (angle, rad).
 """
 
 from __future__ import annotations
@@ -15,7 +17,7 @@ import mujoco
 
 from inspect_cli.interfaces import Capabilities, FlightStack
 from inspect_cli.schema.platform import PlatformBase
-from inspect_cli.spatial.types import Matrix, Vector
+from inspect_cli.spatial.types import Vector
 
 
 @dataclass(frozen=True)
@@ -33,13 +35,11 @@ class Actuators:
 
 @dataclass(frozen=True)
 class Tip:
-    """The tool's end: stiffness of its contact, and where it sits in B at rest."""
+    """The tool's end and how stiff its contact is."""
 
     radius_m: float
     stiffness_npm: float
     damping_ratio: float
-    p_BT: Vector
-    R_BT: Matrix
 
 
 class Vehicle(Protocol):

@@ -4,6 +4,8 @@ IMU ─▶ error-state filter ◀─ pose        (estimate)
           │
           ▼
 momentum observer ─▶ selective impedance ─▶ allocation ─▶ command
+
+The angles of an arm pass from the reference to its servos, which are believed to hold them.
 """
 
 from __future__ import annotations
@@ -15,16 +17,17 @@ import numpy as np
 from inspect_cli.control.impedance import ImpedanceController, RigidBody
 from inspect_cli.estimation.error_state import ErrorStateFilter
 from inspect_cli.estimation.wrench_observer import WrenchObserver
-from inspect_cli.records import Command, Estimate, Imu, Lengths, Pose, Reference
+from inspect_cli.interfaces import Capabilities, at_origin
+from inspect_cli.records import Command, Estimate, Imu, Pose, Reference
 from inspect_cli.schema.platform import ImpedanceProfile, PlatformBase
-from inspect_cli.spatial.types import Matrix, Vector
+from inspect_cli.spatial.types import Vector
 
 
 class Allocation(Protocol):
     """Turns the command's wrench into actuator set-points."""
 
     def update(self, weight_B: Vector, command: Command) -> None:
-        """Write thrusts, joint angles, the granted wrench and whether it saturated."""
+        """Write thrusts, tilts, the granted wrench and whether it saturated."""
         ...
 
 
@@ -34,15 +37,14 @@ class ImpedanceStack:
     def __init__(
         self,
         platform: PlatformBase,
-        lengths: Lengths,
+        capabilities: Capabilities,
         body: RigidBody,
         profile: ImpedanceProfile,
-        R_BT: Matrix,
         allocation: Allocation,
     ) -> None:
         rates, control = platform.rates, platform.control
         self.estimate = Estimate.create()
-        self.command = Command.create(lengths)
+        self.command = Command.create(capabilities.lengths)
         self._filter = ErrorStateFilter(platform.sensors.imu, platform.sensors.pose, rates.imu_hz)
         self._observer = WrenchObserver(
             body.mass_kg,
@@ -51,6 +53,10 @@ class ImpedanceStack:
             np.array(control.observer_gain + control.observer_gain_torque),
             1.0 / rates.control_hz,
         )
+        self._capabilities = capabilities
+        angles, n_arm = self.command.joint_angle, capabilities.lengths.get("n_arm", 0)
+        self._arm_angle = angles[len(angles) - n_arm :]
+        _, R_BT = capabilities.tool_pose(at_origin(self._arm_angle))
         self._impedance = ImpedanceController(body, control, profile, R_BT)
         self._allocation = allocation
         self._flying = False
@@ -69,6 +75,8 @@ class ImpedanceStack:
 
     def control(self, reference: Reference, flying: bool) -> None:
         """Write the command; idle motors, and an observer at rest, when not ``flying``."""
+        if self._arm_angle.size:
+            self._move_arm(reference.arm_angle)
         if not flying:
             self._idle()
             return
@@ -78,6 +86,14 @@ class ImpedanceStack:
         self._observer.update(self.estimate, self.command.allocated_B)
         self._impedance.update(self.estimate, reference, self.command)
         self._allocation.update(self._impedance.weight_B, self.command)
+
+    def _move_arm(self, arm_angle: Vector) -> None:
+        """Command the arm, and turn the impedance with the tool."""
+        if np.array_equal(self._arm_angle, arm_angle):
+            return
+        self._arm_angle[:] = arm_angle
+        _, R_BT = self._capabilities.tool_pose(at_origin(arm_angle))
+        self._impedance.turn_tool(R_BT)
 
     def _idle(self) -> None:
         self._flying = False

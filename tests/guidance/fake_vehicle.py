@@ -56,6 +56,10 @@ class FakeVehicle:
 class FakeArm(FakeVehicle):
     """A telescope of two joints: the tip moves out along x_B with the sum of their angles."""
 
+    @property
+    def lengths(self):
+        return {"n_rotors": 4, "n_joints": 2, "n_arm": 2}
+
     def tool_pose(self, posture):
         R_WB = quaternion_to_matrix(posture.q_WB)
         p_BT = self.p_BT + np.array([0.1 * posture.arm_angle.sum(), 0.0, 0.0])

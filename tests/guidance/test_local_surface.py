@@ -38,17 +38,26 @@ def model(noise_floor_m=0.0) -> TofModel:
 def poses(p_WB=(0.0, 0.0, 1.0), R_WB=None):
     state = State.create({"n_rotors": 4, "n_joints": 0})
     estimate = Estimate.create()
+    R_WB = np.eye(3) if R_WB is None else R_WB
     for record in (state, estimate):
         record.p_WB[:] = p_WB
-        record.q_WB[:] = matrix_to_quaternion(np.eye(3) if R_WB is None else R_WB)
+        record.q_WB[:] = matrix_to_quaternion(R_WB)
+    state.q_WT[:] = matrix_to_quaternion(R_WB @ R_BT)
     return state, estimate
 
 
+def fit(points_D, estimate, out, noise_floor_m=0.004):
+    """The local surface seen from where the estimate puts camera and tool."""
+    R_WB = quaternion_to_matrix(estimate.q_WB)
+    p_WD, p_WT = estimate.p_WB + R_WB @ P_BD, estimate.p_WB + R_WB @ P_BT
+    LocalSurface(model(noise_floor_m)).update(points_D, p_WD, p_WT, R_WB @ R_BT, out)
+
+
 def look(primitives, state, estimate, noise_floor_m=0.0, seed=1):
-    camera = TofCamera(model(noise_floor_m), R_BT, primitives, np.random.default_rng(seed))
+    camera = TofCamera(model(noise_floor_m), primitives, np.random.default_rng(seed))
     camera.sample(state)
     out = SurfaceEstimate.create()
-    LocalSurface(camera.model, P_BT, R_BT).update(camera.points_D, estimate, out)
+    fit(camera.points_D, estimate, out, noise_floor_m)
     return out, camera.points_D
 
 
@@ -81,7 +90,7 @@ def test_agrees_with_singular_value_decomposition():
     points_D, p_DT = tilted_plane_points(np.random.default_rng(3))
     out = SurfaceEstimate.create()
     _, estimate = poses((1.0, 2.0, 3.0), roll_pitch_yaw_matrix(0.3, 0.2, -1.0))
-    LocalSurface(model(0.004), P_BT, R_BT).update(points_D, estimate, out)
+    fit(points_D, estimate, out)
     near = points_D[np.linalg.norm((points_D - p_DT)[:, :2], axis=1) <= RADIUS]
     mean = near.mean(axis=0)
     _, singular, axes = np.linalg.svd(near - mean)
@@ -166,20 +175,19 @@ def test_half_a_disc_at_the_edge_of_a_wall_is_enough():
 
 
 def test_not_a_number_anywhere_is_not_valid():
-    surface = LocalSurface(model(0.004), P_BT, R_BT)
     points_D, _ = tilted_plane_points(np.random.default_rng(3))
     out = SurfaceEstimate.create()
     _, estimate = poses()
-    surface.update(np.full_like(points_D, np.nan), estimate, out)
+    fit(np.full_like(points_D, np.nan), estimate, out)
     assert (out.valid, out.n_points) == (0.0, 0.0)
     estimate.p_WB[2] = np.nan
-    surface.update(points_D, estimate, out)
+    fit(points_D, estimate, out)
     assert out.valid == 0.0
     _, estimate = poses()
     estimate.q_WB[0] = np.nan
-    surface.update(points_D, estimate, out)
+    fit(points_D, estimate, out)
     assert out.valid == 0.0
     _, estimate = poses()
     points_D[200] = [np.nan, np.nan, 0.7]
-    surface.update(points_D, estimate, out)
+    fit(points_D, estimate, out)
     assert out.valid == 1.0

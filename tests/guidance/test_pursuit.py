@@ -11,10 +11,11 @@ from inspect_cli.guidance.local_surface import LocalSurface
 from inspect_cli.guidance.orientation import contact_orientation
 from inspect_cli.guidance.pursuit import Pursuit
 from inspect_cli.interfaces import Posture
-from inspect_cli.records import Estimate, State, SurfaceEstimate
+from inspect_cli.records import State, SurfaceEstimate
 from inspect_cli.schema.platform import TofModel
 from inspect_cli.sensing.tof import TofCamera
 from inspect_cli.spatial.primitives import plane
+from inspect_cli.spatial.rotations import matrix_to_quaternion, rotate
 
 MOTION = ("p_WB", "q_WB", "v_WB_W", "w_WB_B", "a_WB_W", "alpha_WB_B", "p_WT")
 Y_NORTH = np.array([0.0, 1.0, 0.0])
@@ -194,19 +195,21 @@ def test_camera_and_pursuit_together_find_a_wall_that_is_not_where_it_was_planne
         noise_floor_m=0.004,
         neighbourhood_m=0.1,
     )
-    camera = TofCamera(model, vehicle.R_BT, plane(p_true, n_true, [4, 4]), np.random.default_rng(2))
-    local = LocalSurface(model, vehicle.p_BT, vehicle.R_BT)
+    camera = TofCamera(model, plane(p_true, n_true, [4, 4]), np.random.default_rng(2))
+    local = LocalSurface(model)
     state = State.create(vehicle.lengths)
-    estimate, surface = Estimate.create(), SurfaceEstimate.create()
+    surface = SurfaceEstimate.create()
     pursuit.approach(0.0, wall_target(vehicle), 0.0, 0.2)
     t = 0.0
     while t < 20.0:
         pursuit.write(t)
-        for record in (state, estimate):
-            record.p_WB[:] = pursuit.reference.p_WB
-            record.q_WB[:] = pursuit.reference.q_WB
+        p_WT, R_WT = tool(vehicle, pursuit)
+        state.p_WB[:] = pursuit.reference.p_WB
+        state.q_WB[:] = pursuit.reference.q_WB
+        state.q_WT[:] = matrix_to_quaternion(R_WT)
         camera.sample(state)
-        local.update(camera.points_D, estimate, surface)
+        p_WD = state.p_WB + rotate(state.q_WB, np.array(model.position_B_m))
+        local.update(camera.points_D, p_WD, p_WT, R_WT, surface)
         pursuit.observe(t, surface)
         t += 0.2
     p_WT, R_WT = tool(vehicle, pursuit)
@@ -323,8 +326,8 @@ def test_an_arm_is_interpolated_and_carries_the_tip():
     pursuit.go_to(0.0, [goal], 0.5)
     end = max(15 / 8 / 0.7, np.sqrt(10 / np.sqrt(3) / 0.7))
     pursuit.write(0.5 * end)
-    assert np.allclose(pursuit.arm_angle, [0.5, 0.25])
+    assert np.allclose(pursuit.reference.arm_angle, [0.5, 0.25])
     assert np.allclose(pursuit.reference.p_WT, [0.55 + 0.075, 0.0, 1.02])
     pursuit.write(end + 1.0)
     assert pursuit.arrived(end + 1.0)
-    assert np.allclose(pursuit.arm_angle, goal.arm_angle)
+    assert np.allclose(pursuit.reference.arm_angle, goal.arm_angle)

@@ -164,6 +164,9 @@ def _truth(times: Vector, mode: Vector, target: Vector, tip: Vector) -> dict[str
     state["p_WT"][touching, 0] = WALL_X_M
     state["p_WB"] = state["p_WT"] - [TOOL_M, 0.0, 0.0]
     state["q_WB"] = [np.cos(YAW_ERROR_RAD / 2), 0.0, 0.0, np.sin(YAW_ERROR_RAD / 2)]
+    # The arm is turned by 90° about y_B: Hamilton product of the two, written out.
+    c, s = np.cos(YAW_ERROR_RAD / 2) / np.sqrt(2.0), np.sin(YAW_ERROR_RAD / 2) / np.sqrt(2.0)
+    state["q_WT"] = [c, -s, c, s]
     state["f_normal"] = np.where(pressing, FORCE_N, np.where(releasing, 0.5, 0.0))
     state["wrench_ext_B"][:, 0] = -state["f_normal"]
     state["rotor_thrust"] = 4.0

@@ -36,12 +36,14 @@ def model(noise_floor_m=0.0, noise_m=0.0) -> TofModel:
 def state_at(p_WB, R_WB=None) -> State:
     state = State.create(LENGTHS)
     state.p_WB[:] = p_WB
-    state.q_WB[:] = matrix_to_quaternion(np.eye(3) if R_WB is None else R_WB)
+    R_WB = np.eye(3) if R_WB is None else R_WB
+    state.q_WB[:] = matrix_to_quaternion(R_WB)
+    state.q_WT[:] = matrix_to_quaternion(R_WB @ R_BT)
     return state
 
 
 def camera(primitives, seed=1, **noise) -> TofCamera:
-    return TofCamera(model(**noise), R_BT, primitives, np.random.default_rng(seed))
+    return TofCamera(model(**noise), primitives, np.random.default_rng(seed))
 
 
 def in_world(points_D, state):

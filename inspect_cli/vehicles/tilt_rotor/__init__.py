@@ -12,7 +12,7 @@ from inspect_cli.vehicles.kinds import Actuators, Tip
 from inspect_cli.vehicles.rigid_body import nominal_body
 from inspect_cli.vehicles.stack import ImpedanceStack
 from inspect_cli.vehicles.tilt_rotor.capabilities import TiltRotorCapabilities
-from inspect_cli.vehicles.tilt_rotor.model import build_spec, group_kappa_m, tool_transform
+from inspect_cli.vehicles.tilt_rotor.model import build_spec, group_kappa_m
 
 
 class TiltRotor:
@@ -29,10 +29,7 @@ class TiltRotor:
             joint_rate_radps=np.full(n, unit.servo_rate_radps),
             rotor_radius_m=rotor.radius_m,
         )
-        p_BT, R_BT = tool_transform(platform)
-        self.tip = Tip(
-            tool.tip_radius_m, tool.tip_stiffness_npm, tool.tip_damping_ratio, p_BT, R_BT
-        )
+        self.tip = Tip(tool.tip_radius_m, tool.tip_stiffness_npm, tool.tip_damping_ratio)
         self._body = nominal_body(build_spec(platform))
         self.capabilities = TiltRotorCapabilities(
             platform, self._profile, self._body, self._allocation()
@@ -45,12 +42,7 @@ class TiltRotor:
     def flight_stack(self) -> FlightStack:
         """Error-state filter, momentum observer, selective impedance, static allocation."""
         return ImpedanceStack(
-            self.platform,
-            self.capabilities.lengths,
-            self._body,
-            self._profile,
-            self.tip.R_BT,
-            self._allocation(),
+            self.platform, self.capabilities, self._body, self._profile, self._allocation()
         )
 
     def _allocation(self) -> TiltAllocation:
