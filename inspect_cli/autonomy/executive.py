@@ -34,8 +34,8 @@ PAUSE_S = 0.2
 """At rest at the end of each stretch before the next begins."""
 SAFE_HOVER_S = 3.0
 """Hover after an abort before the run ends."""
-TOUCHDOWN_M = 0.03
-"""How far below standing height the landing leads, so that the motors stop on the ground."""
+TOUCHDOWN_M = 0.15
+"""How far below standing height the vehicle leans on the ground before its motors stop."""
 BEFORE_CONTACT_M = 0.01
 """The approach ends this far from the surface; the press goes through it."""
 
@@ -120,6 +120,7 @@ class Executive:
         self._since_s = 0.0
         self._resting_since_s: float | None = None
         self._waiting_for_surface = False
+        self._down = False
         self._judged: set[int] = set()
         self.mode = Mode.IDLE
         self.target = -1
@@ -134,7 +135,7 @@ class Executive:
     @property
     def flying(self) -> bool:
         """Whether the motors shall run."""
-        return self.mode not in (Mode.IDLE, Mode.LANDED)
+        return self.mode != Mode.IDLE and not self._down
 
     @property
     def watches_surface(self) -> bool:
@@ -186,13 +187,19 @@ class Executive:
         if self.mode == Mode.HOVER:
             return t_s - self._since_s >= SAFE_HOVER_S
         if self.mode == Mode.LANDED:
-            return t_s - self._since_s >= SETTLE_S
+            return self._settled_down(t_s)
         if self.mode == Mode.PRESS:
             return self._judge is not None and self._judge.done(t_s)
         if self._waiting_for_surface:
             self._begin_approach_when_seen(t_s)
             return False
         return self._rested(t_s)
+
+    def _settled_down(self, t_s: float) -> bool:
+        """Lean on the ground, stop the motors, wait."""
+        if not self._down and self._rested(t_s):
+            self._down, self._since_s = True, t_s
+        return self._down and t_s - self._since_s >= SETTLE_S
 
     def _rested(self, t_s: float) -> bool:
         if not self._guidance.arrived(t_s):
@@ -209,18 +216,22 @@ class Executive:
         if self.mode == Mode.PRESS:
             self._take_reading(t_s)
         if self._leg + 1 == len(self._plan.legs):
-            self._enter(t_s, Mode.LANDED, -1)
+            self._touch_down(t_s)
             return
         self._leg += 1
         self._begin(t_s, self._plan.legs[self._leg])
+
+    def _touch_down(self, t_s: float) -> None:
+        self._enter(t_s, Mode.LANDED, -1)
+        leg = self._plan.legs[-1]
+        below = _lower(posture_of(leg.postures[-1]), TOUCHDOWN_M)
+        self._guidance.go_to(t_s, [below], leg.speed_mps)
 
     def _begin(self, t_s: float, leg: Leg) -> None:
         mode = Mode[leg.kind.upper()]
         self._enter(t_s, mode, -1 if leg.target is None else leg.target)
         if leg.target is None or mode == Mode.TRANSIT:
             postures = [posture_of(model) for model in leg.postures]
-            if mode == Mode.LAND:
-                postures.append(_lower(postures[-1], TOUCHDOWN_M))
             self._guidance.go_to(t_s, postures, leg.speed_mps)
             return
         target = self._plan.targets[leg.target]

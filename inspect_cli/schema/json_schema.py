@@ -16,6 +16,7 @@ from inspect_cli.schema.mission import MissionFile
 from inspect_cli.schema.platform import PLATFORM_KINDS
 from inspect_cli.schema.units import split_key
 
+REFERENCE = "#/$defs/"
 DIALECT = "https://json-schema.org/draft/2020-12/schema"
 
 Kind = Literal["mission", "platform"]
@@ -23,10 +24,22 @@ TITLES: dict[Kind, str] = {"mission": "Mission of inspect", "platform": "Platfor
 
 
 def json_schema(kind: Kind) -> dict[str, Any]:
-    """The schema of a mission or a platform file, computed from the models."""
-    body = _mission() if kind == "mission" else _platform()
-    _title_with_units(body)
-    return {"$schema": DIALECT, **body, "title": TITLES[kind]}
+    """The schema of a mission or a platform file, computed from the models.
+
+    A file that extends another may leave out what it inherits, at any depth.
+    """
+    definitions, whole = _mission() if kind == "mission" else _platform()
+    for definition in definitions.values():
+        _title_with_units(definition)
+    partial = {f"Partial{name}": _partial(body) for name, body in definitions.items()}
+    return {
+        "$schema": DIALECT,
+        "title": TITLES[kind],
+        "$defs": definitions | partial,
+        "if": {"required": ["extends"]},
+        "then": {"allOf": [_partial(whole), {"required": ["name"]}]},
+        "else": whole,
+    }
 
 
 def schema_text(kind: Kind) -> str:
@@ -39,18 +52,31 @@ def committed_file(kind: Kind) -> Path:
     return Path(__file__).with_name(f"{kind}.schema.json")
 
 
-def _mission() -> dict[str, Any]:
-    schema = MissionFile.model_json_schema(by_alias=True)
-    # A mission that extends another may leave out what it inherits, but for its own name.
-    whole = schema.pop("required")
-    schema["anyOf"] = [{"required": whole}, {"required": ["name", "extends"]}]
-    return schema
+def _mission() -> tuple[dict[str, Any], dict[str, Any]]:
+    body = MissionFile.model_json_schema(by_alias=True)
+    definitions = body.pop("$defs")
+    return definitions | {"Mission": body}, {"$ref": REFERENCE + "Mission"}
 
 
-def _platform() -> dict[str, Any]:
+def _platform() -> tuple[dict[str, Any], dict[str, Any]]:
     kinds = list(PLATFORM_KINDS.values())
     references, body = models_json_schema([(kind, "validation") for kind in kinds], by_alias=True)
-    return {**body, "oneOf": [references[kind, "validation"] for kind in kinds]}
+    return body["$defs"], {"oneOf": [references[kind, "validation"] for kind in kinds]}
+
+
+def _partial(schema: Any) -> Any:
+    """A copy in which nothing is required, its references led to other such copies."""
+    if isinstance(schema, list):
+        return [_partial(entry) for entry in schema]
+    if not isinstance(schema, dict):
+        return schema
+    copy = {key: _partial(value) for key, value in schema.items() if key != "required"}
+    if isinstance(copy.get("$ref"), str):
+        copy["$ref"] = copy["$ref"].replace(REFERENCE, REFERENCE + "Partial")
+    mapping = copy.get("discriminator", {}).get("mapping", {})
+    for name, target in mapping.items():
+        mapping[name] = target.replace(REFERENCE, REFERENCE + "Partial")
+    return copy
 
 
 def _title_with_units(schema: dict[str, Any]) -> None:
@@ -59,5 +85,3 @@ def _title_with_units(schema: dict[str, Any]) -> None:
         stem, unit = split_key(key)
         words = stem.replace("_", " ")
         entry["title"] = words[:1].upper() + words[1:] + (f", {unit.name}" if unit else "")
-    for definition in schema.get("$defs", {}).values():
-        _title_with_units(definition)

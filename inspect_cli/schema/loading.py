@@ -77,12 +77,12 @@ def load_mission(path: Path, platform: Path | None = None) -> Loaded:
 
 
 def load_platform(path: Path) -> PlatformBase:
-    """Read a platform file by the model of its kind.
+    """Read a platform file, and those of its folder that it extends, by the model of its kind.
 
     Raises:
         SchemaError: with every problem that was found in the file.
     """
-    node = read_yaml(path)
+    node = without(_read_extended(path, path.resolve().parent, ()), ["extends"])
     kind = node.child("kind")
     if kind is None:
         hint = f"choices: {', '.join(PLATFORM_KINDS)}"
@@ -99,7 +99,7 @@ def load_platform(path: Path) -> PlatformBase:
 
 
 def _read_extended(path: Path, root: Path, above: tuple[Path, ...]) -> Node:
-    """The file laid upon the missions that it extends; every value keeps its own place."""
+    """The file laid upon those that it extends; every value keeps its own place."""
     node = read_yaml(path)
     extends = node.child("extends")
     if extends is None or not isinstance(extends.value, str):
@@ -108,13 +108,13 @@ def _read_extended(path: Path, root: Path, above: tuple[Path, ...]) -> Node:
     problem = file_problem(extends, "extends", target)
     chain = (*above, path.resolve())
     if target in chain:
-        problem = Problem("missions extend each other in a circle", extends.at("extends"))
+        problem = Problem("files extend each other in a circle", extends.at("extends"))
     elif len(chain) > MAX_EXTENDS:
         problem = Problem(f"extends more than {MAX_EXTENDS} deep", extends.at("extends"))
     if problem:
         raise SchemaError(problem)
     base = _read_extended(path.parent / extends.value, root, chain)
-    # Two missions of one name would write into the same folder of reports.
+    # Two files of one name would write into the same folder of reports.
     return merged(without(base, ["name", "extends"]), node)
 
 

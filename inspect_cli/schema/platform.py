@@ -155,6 +155,8 @@ class PlatformBase(Strict):
 
     schema_version: Annotated[Literal[1], Field(alias="schema")] = 1
     name: Name
+    extends: str | None = None
+    """Another platform in the same folder whose entries hold where this file has none."""
     kind: str
     title: str = ""
     source: str = ""

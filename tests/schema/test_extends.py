@@ -67,7 +67,7 @@ def test_a_variant_needs_a_name_of_its_own(campaign: Path) -> None:
     [
         ("n.yaml", "variant.yaml:1:10: extends: no such file: n.yaml"),
         ("../../m.yaml", "variant.yaml:1:10: extends: leads out of the campaign folder"),
-        ("variant.yaml", "variant.yaml:1:10: extends: missions extend each other in a circle"),
+        ("variant.yaml", "variant.yaml:1:10: extends: files extend each other in a circle"),
         ("[m.yaml]", "variant.yaml:1:10: extends: must be text; found a list"),
     ],
 )
@@ -79,7 +79,7 @@ def test_what_cannot_be_extended(campaign: Path, target: str, message: str) -> N
 def test_a_circle_over_several_files_is_refused(campaign: Path) -> None:
     write(campaign, "a.yaml", "extends: b.yaml\nname: a\n")
     file = write(campaign, "b.yaml", "extends: a.yaml\nname: b\n")
-    assert "a.yaml:1:10: extends: missions extend each other in a circle" in refusal(file)
+    assert "a.yaml:1:10: extends: files extend each other in a circle" in refusal(file)
 
 
 def test_a_long_chain_is_refused(campaign: Path) -> None:

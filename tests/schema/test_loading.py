@@ -187,7 +187,8 @@ def test_the_resolved_mission_survives_json(campaign: Path) -> None:
             "platform: tilt_rotor_hexarotr",
             [
                 "m.yaml:3:11: platform: no platform is named 'tilt_rotor_hexarotr'\n"
-                "    did you mean 'tilt_rotor_hexarotor'? choices: tilt_rotor_hexarotor"
+                "    did you mean 'tilt_rotor_hexarotor'? "
+                "choices: tilt_rotor_hexarotor, tilt_rotor_hexarotor_30"
             ],
         ),
         (
