@@ -118,6 +118,7 @@ def resistivity_figure(points: Sequence[ReadPoint]) -> Figure | None:
     low, high = potential_range(known)
     layout: Json = {
         "hovermode": "closest",
+        "showlegend": True,
         "xaxis": {"title": {"text": "potential (mV CSE)"}, "range": [low, high]},
         "yaxis": {
             "title": {"text": "resistivity (Ω·m), log scale"},

@@ -28,14 +28,14 @@ from inspect_cli.reporting.palette import (
     LineStyle,
 )
 from inspect_cli.reporting.rows import held_at, rows_of, turned_to_world
-from inspect_cli.reporting.timeline import Line, Panel, Phase, stacked
+from inspect_cli.reporting.timeline import Line, Panel, Timeline, stacked
 from inspect_cli.schema.plan import Plan
 from inspect_cli.spatial.types import Points, Structured, Vector
 
 AT_A_SURFACE = (Mode.APPROACH, Mode.PRESS, Mode.RETREAT)
 
 
-def force_figures(log: RunLog, plan: Plan, phases: Sequence[Phase]) -> Iterator[Figure]:
+def force_figures(log: RunLog, plan: Plan, timeline: Timeline) -> Iterator[Figure]:
     """The contact force three ways, and the estimated against the true wrench."""
     yield from _drawn(
         "force",
@@ -44,22 +44,27 @@ def force_figures(log: RunLog, plan: Plan, phases: Sequence[Phase]) -> Iterator[
         "external force too.",
         "Normal contact force over time: true, by the probe's load cell, and estimated.",
         [Panel("normal force (N)", _normal_forces(log, plan), height_px=240)],
-        phases,
+        timeline,
     )
     for name, first, unit, symbol in (("force", 0, "N", "F"), ("torque", 3, "N·m", "τ")):
         yield from _drawn(
             f"wrench-{name}",
-            f"External {name} about the body's origin, in the body frame: observer against truth.",
+            f"External {name} about the body's origin, in the body frame: observer against truth. "
+            "The axes are scaled to the flight off the ground.",
             f"Three components of the external {name} over time, estimated and true.",
             [
-                Panel(f"{symbol}<sub>{axis}</sub> ({unit})", _wrench(log, first + k))
+                Panel(
+                    f"{symbol}<sub>{axis}</sub> ({unit})",
+                    _wrench(log, first + k),
+                    off_ground=True,
+                )
                 for k, axis in enumerate("xyz")
             ],
-            phases,
+            timeline,
         )
 
 
-def surface_figures(log: RunLog, phases: Sequence[Phase]) -> Iterator[Figure]:
+def surface_figures(log: RunLog, timeline: Timeline) -> Iterator[Figure]:
     """What the depth camera saw of the surface, against the truth where there is one."""
     surface, contact = rows_of(log, SurfaceEstimate), rows_of(log, TrueContact)
     if surface is None:
@@ -81,11 +86,11 @@ def surface_figures(log: RunLog, phases: Sequence[Phase]) -> Iterator[Figure]:
         "estimates that were not to be used.",
         "Estimated and true distance to the surface, and angle between the normals, over time.",
         panels,
-        phases,
+        timeline,
     )
 
 
-def actuator_figures(log: RunLog, phases: Sequence[Phase]) -> Iterator[Figure]:
+def actuator_figures(log: RunLog, timeline: Timeline) -> Iterator[Figure]:
     """Thrust of every rotor, angle of every joint, and where the allocation saturated."""
     command = rows_of(log, Command)
     panels = [
@@ -103,17 +108,17 @@ def actuator_figures(log: RunLog, phases: Sequence[Phase]) -> Iterator[Figure]:
         "were commanded, and where the allocation had to scale the wrench down.",
         "Rotor thrusts, joint angles and saturation over time.",
         panels,
-        phases,
+        timeline,
     )
 
 
 def _drawn(
-    name: str, caption: str, description: str, panels: Sequence[Panel], phases: Sequence[Phase]
+    name: str, caption: str, description: str, panels: Sequence[Panel], timeline: Timeline
 ) -> Iterator[Figure]:
     """The figure of the panels that have a line, if there is any."""
     filled = [panel for panel in panels if panel.lines]
     if filled:
-        yield stacked(name, caption, description, filled, phases)
+        yield stacked(name, caption, description, filled, timeline)
 
 
 def _normal_forces(log: RunLog, plan: Plan) -> list[Line]:

@@ -52,6 +52,7 @@ def _map(
         "coloraxis": scale,
         "margin": {"t": 44, "r": 20, "b": 110},
         "hovermode": "closest",
+        "showlegend": True,
         "xaxis": {"title": {"text": "u (m)"}, "range": [u_low, u_high], "constrain": "domain"},
         "yaxis": {
             "title": {"text": "v (m)"},

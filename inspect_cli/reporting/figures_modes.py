@@ -7,8 +7,9 @@ import numpy as np
 from inspect_cli.log.reader import RunLog
 from inspect_cli.records import Mode, Reference
 from inspect_cli.reporting.figure import Figure, Json, numbers, words
-from inspect_cli.reporting.palette import INK, MODE_COLOURS, MUTED, VERMILLION
+from inspect_cli.reporting.palette import INK, MODE_COLOURS, MUTED, VERMILION
 from inspect_cli.reporting.rows import rows_of
+from inspect_cli.reporting.tables import QUIET_LEVELS
 from inspect_cli.spatial.types import Structured
 
 ROW_PX = 24
@@ -84,7 +85,6 @@ def _bars(mode: Mode, spans: list[tuple[float, float]]) -> Json:
 
 
 def _events(log: RunLog) -> Json:
-    quiet = {"debug", "info"}
     return {
         "type": "scatter",
         "mode": "markers",
@@ -94,9 +94,7 @@ def _events(log: RunLog) -> Json:
         "marker": {
             "symbol": "diamond-tall",
             "size": 9,
-            "color": [
-                MUTED if str(event.level).lower() in quiet else VERMILLION for event in log.events
-            ],
+            "color": [MUTED if event.level in QUIET_LEVELS else VERMILION for event in log.events],
             "line": {"width": 1, "color": INK},
         },
         "hovertemplate": "%{x:.2f} s %{text}<extra></extra>",

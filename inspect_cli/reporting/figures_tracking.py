@@ -22,7 +22,7 @@ from inspect_cli.reporting.rows import (
     roll_pitch_yaw_deg,
     rows_of,
 )
-from inspect_cli.reporting.timeline import Line, Panel, Phase, stacked
+from inspect_cli.reporting.timeline import Line, Panel, Timeline, stacked
 from inspect_cli.spatial.types import Points, Structured, Vector
 
 Track = tuple[Vector, Points, LineStyle]
@@ -32,7 +32,7 @@ AXES = ("x", "y", "z")
 ANGLES = ("roll", "pitch", "yaw")
 
 
-def tracking_figures(log: RunLog, phases: Sequence[Phase]) -> Iterator[Figure]:
+def tracking_figures(log: RunLog, timeline: Timeline) -> Iterator[Figure]:
     """Position and attitude with their errors; only what the log holds."""
     poses = _poses(log)
     if not poses:
@@ -43,15 +43,16 @@ def tracking_figures(log: RunLog, phases: Sequence[Phase]) -> Iterator[Figure]:
         "set-point lies behind the surface on purpose.",
         "Position x, y, z of the body over time: reference, estimate and truth.",
         _panels([(rows["t_s"], rows["p_WB"], style) for rows, style in poses], AXES, "m"),
-        phases,
+        timeline,
     )
     yield from _error_figure(
         "position-error",
         "Position errors per axis of the world. In contact the distance to the reference is the "
-        "compression of the virtual spring that makes the force; it is no tracking error.",
+        "compression of the virtual spring that makes the force; it is no tracking error. The "
+        "axes are scaled to the flight off the ground.",
         "Position errors along x, y and z over time.",
-        _panels(_errors(log, _position_difference_mm), AXES, "mm"),
-        phases,
+        _panels(_errors(log, _position_difference_mm), AXES, "mm", off_ground=True),
+        timeline,
     )
     yield stacked(
         "attitude",
@@ -62,18 +63,20 @@ def tracking_figures(log: RunLog, phases: Sequence[Phase]) -> Iterator[Figure]:
             ANGLES,
             "°",
         ),
-        phases,
+        timeline,
     )
     yield from _error_figure(
         "attitude-error",
-        "Attitude errors as rotation vectors, in the frame of the body that they start from.",
+        "Attitude errors as rotation vectors, in the frame of the body that they start from. The "
+        "axes are scaled to the flight off the ground.",
         "Components of the attitude error over time.",
         _panels(
             _errors(log, _attitude_difference_mrad),
             [f"θ<sub>{axis}</sub>" for axis in AXES],
             "mrad",
+            off_ground=True,
         ),
-        phases,
+        timeline,
     )
 
 
@@ -85,15 +88,21 @@ def _poses(log: RunLog) -> list[tuple[Structured, LineStyle]]:
 
 
 def _error_figure(
-    name: str, caption: str, description: str, panels: Sequence[Panel], phases: Sequence[Phase]
+    name: str, caption: str, description: str, panels: Sequence[Panel], timeline: Timeline
 ) -> Iterator[Figure]:
     if panels[0].lines:
-        yield stacked(name, caption, description, panels, phases)
+        yield stacked(name, caption, description, panels, timeline)
 
 
-def _panels(tracks: Sequence[Track], names: Sequence[str], unit: str) -> list[Panel]:
+def _panels(
+    tracks: Sequence[Track], names: Sequence[str], unit: str, *, off_ground: bool = False
+) -> list[Panel]:
     return [
-        Panel(f"{name} ({unit})", [Line(t_s, xyz[:, k], style) for t_s, xyz, style in tracks])
+        Panel(
+            f"{name} ({unit})",
+            [Line(t_s, xyz[:, k], style) for t_s, xyz, style in tracks],
+            off_ground=off_ground,
+        )
         for k, name in enumerate(names)
     ]
 

@@ -22,7 +22,7 @@ ORANGE = "#e69f00"
 SKY_BLUE = "#56b4e9"
 GREEN = "#009e73"
 BLUE = "#0072b2"
-VERMILLION = "#d55e00"
+VERMILION = "#d55e00"
 PURPLE = "#cc79a7"
 
 FONT = 'system-ui, -apple-system, "Segoe UI", Roboto, "Helvetica Neue", Arial, sans-serif'
@@ -44,10 +44,11 @@ ESTIMATE = LineStyle("estimate", BLUE, "solid", 1.4)
 TRUTH = LineStyle("truth", GREEN, "solid", 1.8)
 SENSOR = LineStyle("load cell", PURPLE, "solid", 1.2)
 COMMAND = LineStyle("command", MUTED, "dot", 1.0)
+# A difference has the colour of what it is taken from.
 TRACKING_ERROR = LineStyle("truth − reference", GREEN, "solid", 1.4)
 BELIEVED_ERROR = LineStyle("estimate − reference", BLUE, "solid", 1.4)
-ESTIMATION_ERROR = LineStyle("estimate − truth", PURPLE, "solid", 1.2)
-SATURATED = LineStyle("saturated", VERMILLION, "solid", 1.0)
+ESTIMATION_ERROR = LineStyle("estimate − truth", BLUE, "solid", 1.2)
+SATURATED = LineStyle("saturated", VERMILION, "solid", 1.0)
 
 
 @dataclass(frozen=True)
@@ -62,12 +63,12 @@ class ClassStyle:
 ASTM_STYLES = {
     "passive": ClassStyle("passive", SKY_BLUE, "circle"),
     "uncertain": ClassStyle("uncertain", ORANGE, "square"),
-    "active": ClassStyle("active", VERMILLION, "diamond"),
+    "active": ClassStyle("active", VERMILION, "diamond"),
 }
 CORROSION_STYLES = {
     "none": ClassStyle("none", SKY_BLUE, "circle"),
     "possible": ClassStyle("possible", ORANGE, "square"),
-    "active": ClassStyle("active", VERMILLION, "diamond"),
+    "active": ClassStyle("active", VERMILION, "diamond"),
 }
 INVALID_STYLE = ClassStyle("invalid reading", INK, "x-thin")
 
@@ -80,7 +81,7 @@ MODE_COLOURS = {
     Mode.RETREAT: BLUE,
     Mode.LAND: "#8c96a0",
     Mode.LANDED: "#c4ccd4",
-    Mode.HOVER: VERMILLION,
+    Mode.HOVER: VERMILION,
 }
 
 POTENTIAL_STOPS = {
@@ -102,11 +103,11 @@ def css_variables() -> str:
         "paper": PAPER,
         "accent": BLUE,
         "good": GREEN,
-        "bad": VERMILLION,
+        "bad": VERMILION,
         "warn": ORANGE,
         "passive": SKY_BLUE,
         "uncertain": ORANGE,
-        "active": VERMILLION,
+        "active": VERMILION,
     }
     lines = "".join(f"--{name}: {colour};" for name, colour in colours.items())
     return f":root{{{lines}--font: {FONT};}}\n"

@@ -19,7 +19,6 @@ def provenance(log: RunLog, result: Result, plan: Plan) -> Markup:
         [
             ("Mission", result.mission),
             ("Platform", f"{result.platform} ({platform.kind})"),
-            ("Source of the platform's numbers", platform.source or NOTHING),
             ("Impedance profile", mission.impedance),
             ("Estimation", mission.estimation),
             ("Seed", NOTHING if result.seed is None else str(result.seed)),
@@ -28,7 +27,12 @@ def provenance(log: RunLog, result: Result, plan: Plan) -> Markup:
             ("Planned path", f"{number(plan.path_m, 1)} m"),
         ]
     )
-    return joined(facts, _warnings(plan), _versions(log), _files(log), _chosen(log))
+    source = (
+        element("p", element("strong", "Source of the platform's numbers. "), platform.source)
+        if platform.source
+        else ""
+    )
+    return joined(facts, source, _warnings(plan), _versions(log), _files(log), _chosen(log))
 
 
 def _warnings(plan: Plan) -> Markup:

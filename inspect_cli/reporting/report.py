@@ -45,7 +45,7 @@ from inspect_cli.reporting.tables import (
     truth_table,
     verdicts_table,
 )
-from inspect_cli.reporting.timeline import Phase, contact_phases
+from inspect_cli.reporting.timeline import Timeline, timeline_of
 from inspect_cli.schema.plan import Plan
 from inspect_cli.schema.result import Result
 
@@ -73,12 +73,12 @@ def write_report(log: RunLog, result: Result, folder: Path) -> Path:
 def report_html(log: RunLog, result: Result, plan: Plan) -> str:
     """The page as text."""
     points = read_points(result, plan)
-    phases = contact_phases(rows_of(log, Reference), plan)
+    timeline = timeline_of(rows_of(log, Reference), plan)
     title = log.mission().title or result.mission
     sections = [
         Section("summary", "Summary", _summary(log, result, plan, points)),
         Section("survey", "Corrosion survey", _survey(log, plan, points)),
-        Section("flight", "Flight", _flight(log, result, plan, points, phases)),
+        Section("flight", "Flight", _flight(log, result, plan, points, timeline)),
         Section("structure", "Structure", fits_table(plan)),
         Section("provenance", "Provenance", provenance(log, result, plan)),
     ]
@@ -110,7 +110,7 @@ def _summary(log: RunLog, result: Result, plan: Plan, points: Sequence[ReadPoint
         else element("p", "The mission states no acceptance.")
     )
     return joined(
-        finding_markup(finding(result, points)),
+        finding_markup(finding(result, points, log.mission().expect_status)),
         key_figures(result, plan, points),
         checks,
         element("h3", "What this report does not say"),
@@ -142,22 +142,22 @@ def _flight(
     result: Result,
     plan: Plan,
     points: Sequence[ReadPoint],
-    phases: Sequence[Phase],
+    timeline: Timeline,
 ) -> Markup:
     modes = modes_figure(log)
-    forces = [*force_figures(log, plan, phases)]
+    forces = [*force_figures(log, plan, timeline)]
     return joined(
         element("h3", "Pose tracking"),
-        _drawn(tracking_figures(log, phases), side_by_side=True),
+        _drawn(tracking_figures(log, timeline), side_by_side=True),
         metrics_table("Errors of tracking and estimation.", result, ("tracking", "estimation")),
         element("h3", "Contact force and external wrench"),
         _drawn(forces[:1]),
         _drawn(forces[1:], side_by_side=True),
         metrics_table("Contact and readings.", result, ("contact", "half_cell")),
         element("h3", "Surface seen by the depth camera"),
-        _drawn(surface_figures(log, phases)),
+        _drawn(surface_figures(log, timeline)),
         element("h3", "Actuators"),
-        _drawn(actuator_figures(log, phases)),
+        _drawn(actuator_figures(log, timeline)),
         element("h3", "Path in space"),
         _drawn([scene_figure(log, plan, points)]),
         element("h3", "Modes and events"),

@@ -9,7 +9,7 @@ from inspect_cli.reporting.markup import Markup, element, joined
 from inspect_cli.reporting.points import ReadPoint
 from inspect_cli.reporting.table import NOTHING, number
 from inspect_cli.schema.plan import Plan
-from inspect_cli.schema.result import Result
+from inspect_cli.schema.result import Result, Status
 
 STATUS_WORDS = {
     "completed": "The flight was completed.",
@@ -19,12 +19,15 @@ STATUS_WORDS = {
 }
 
 
-def finding(result: Result, points: Sequence[ReadPoint]) -> list[str]:
+def finding(result: Result, points: Sequence[ReadPoint], expected: Status) -> list[str]:
     """The finding in sentences: how much is valid, what corrodes, how the flight ended."""
     sentences = [_validity(points), *_corrosion(points)]
     if result.status != "completed":
         reason = f" Reason: {result.status_reason}." if result.status_reason else ""
         sentences.append(STATUS_WORDS[result.status] + reason)
+    if expected != "completed":
+        kept = "as it was" if result.status == expected else "which it was not"
+        sentences.append(f"The mission expects it to be {expected}, {kept}.")
     return sentences
 
 

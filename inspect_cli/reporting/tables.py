@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Sequence
 
+from inspect_cli.log.foxglove import Event
 from inspect_cli.log.reader import RunLog
 from inspect_cli.metrics.catalogue import METRICS
 from inspect_cli.reporting.markup import Markup, element, joined
@@ -31,6 +32,9 @@ ASTM_ROWS = (
     ("uncertain", "−350 mV ≤ E ≤ −200 mV", "not decided by the potential"),
     ("active", "E < −350 mV", "more than 90 % that reinforcement corrodes"),
 )
+QUIET_LEVELS = ("debug", "info")
+MANY_EVENTS = 12
+MOST_EVENTS = 1000
 CORROSION_ROWS = ("none", "possible", "active")
 TRUE_FIELDS = (
     "true_force_n",
@@ -270,12 +274,22 @@ def fits_table(plan: Plan) -> Markup:
     return table("Surfaces as the planner believed them.", columns, rows)
 
 
-def events_table(log: RunLog, most: int = 200) -> Markup:
-    """What the vehicle said during the flight."""
+def events_table(log: RunLog) -> Markup:
+    """What the vehicle said during the flight; a long list is folded but for its warnings."""
     if not log.events:
         return Markup("")
-    rows = [[number(event.t_s, 2), str(event.level), event.text] for event in log.events[:most]]
+    warnings = [event for event in log.events if event.level not in QUIET_LEVELS]
+    if len(log.events) <= MANY_EVENTS:
+        return _events("Events.", log.events)
+    folded = element(
+        "details",
+        element("summary", f"All {len(log.events)} events"),
+        _events("Events.", log.events[:MOST_EVENTS]),
+    )
+    return joined(_events("Warnings.", warnings[:MOST_EVENTS]) if warnings else "", folded)
+
+
+def _events(caption: str, events: Sequence[Event]) -> Markup:
+    rows = [[number(event.t_s, 2), event.level, event.text] for event in events]
     columns = [Column("Time", "s", numeric=True), Column("Level"), Column("Event", prose=True)]
-    left_out = len(log.events) - len(rows)
-    caption = "Events." if left_out <= 0 else f"Events; {left_out} later ones are in the log."
     return table(caption, columns, rows)

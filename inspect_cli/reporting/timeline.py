@@ -16,6 +16,9 @@ from inspect_cli.spatial.types import Structured, Vector
 BUCKETS = 800
 """Buckets per line; each keeps its smallest and largest sample. About one per pixel."""
 MAX_LABELLED_PHASES = 40
+OFF_GROUND = (Mode.TRANSIT, Mode.APPROACH, Mode.PRESS, Mode.RETREAT, Mode.HOVER)
+LARGEST_DRAWN = 1e6
+"""Beyond this only a diverged simulation goes; an axis that showed it would show nothing else."""
 PANEL_GAP_PX = 14
 TOP_PX = 64
 BOTTOM_PX = 44
@@ -28,6 +31,16 @@ class Phase:
     start_s: float
     end_s: float
     label: str
+
+
+@dataclass(frozen=True)
+class Timeline:
+    """What the figures over time have in common."""
+
+    phases: tuple[Phase, ...] = ()
+    """The contacts, which are shaded."""
+    off_ground_s: tuple[float, float] | None = None
+    """From leaving the ground to landing."""
 
 
 @dataclass(frozen=True)
@@ -50,6 +63,9 @@ class Panel:
     axis: Json | None = None
     """Entries of the plotly axis that differ from the defaults."""
     height_px: int = 120
+    off_ground: bool = False
+    """Whether the value axis is scaled to the time off the ground, where the forces of the
+    ground and a reference below it would hide everything else."""
 
 
 def thinned(t_s: Vector, values: Vector) -> tuple[Vector, Vector]:
@@ -72,10 +88,17 @@ def thinned(t_s: Vector, values: Vector) -> tuple[Vector, Vector]:
     return t_s[keep], values[keep]
 
 
-def contact_phases(reference: Structured | None, plan: Plan) -> tuple[Phase, ...]:
-    """The stretches in which the executive was pressing, with the label of their point."""
+def timeline_of(reference: Structured | None, plan: Plan) -> Timeline:
+    """Contacts and time off the ground, by the modes of the mission executive."""
     if reference is None:
-        return ()
+        return Timeline()
+    times = reference["t_s"][np.isin(reference["mode"], OFF_GROUND)]
+    off_ground_s = (float(times[0]), float(times[-1])) if len(times) else None
+    return Timeline(_contact_phases(reference, plan), off_ground_s)
+
+
+def _contact_phases(reference: Structured, plan: Plan) -> tuple[Phase, ...]:
+    """The stretches in which the executive was pressing, with the label of their point."""
     pressing = reference["mode"] == Mode.PRESS
     edges = np.flatnonzero(np.diff(np.concatenate([[False], pressing, [False]]).astype(np.int8)))
     t_s = reference["t_s"]
@@ -95,7 +118,7 @@ def stacked(
     caption: str,
     description: str,
     panels: Sequence[Panel],
-    phases: Sequence[Phase],
+    timeline: Timeline,
 ) -> Figure:
     """Panels one under the other on one time axis."""
     heights = np.array([panel.height_px for panel in panels], dtype=float)
@@ -107,14 +130,16 @@ def stacked(
         "hovermode": "x unified",
         "hoversubplots": "axis",
         "legend": {"y": 1.0 + 20.0 / drawn_px},
-        "shapes": [_shade(phase) for phase in phases],
-        "annotations": _phase_labels(phases),
+        "shapes": [_shade(phase) for phase in timeline.phases],
+        "annotations": _phase_labels(timeline.phases),
         "xaxis": {"title": {"text": "time (s)"}, "anchor": _axis(len(panels) - 1)},
     }
     shown: set[str] = set()
     for k, (panel, top, height) in enumerate(zip(panels, tops, heights, strict=True)):
         domain = [max(0.0, float((top - height) / drawn_px)), float(top / drawn_px)]
-        axis = {"title": {"text": panel.title}, "domain": domain, "nticks": 5}
+        axis: Json = {"title": {"text": panel.title}, "domain": domain, "nticks": 5}
+        if panel.off_ground and timeline.off_ground_s is not None:
+            axis |= _value_range(panel.lines, timeline.off_ground_s)
         layout["yaxis" if k == 0 else f"yaxis{k + 1}"] = merged(axis, panel.axis or {})
         for line in panel.lines:
             traces.append(_trace(line, _axis(k), line.style.label not in shown))
@@ -143,6 +168,20 @@ def _trace(line: Line, axis: str, in_legend: bool) -> Json:
         "line": {"color": style.colour, "dash": style.dash, "width": style.width},
     }
     return merged(trace, line.extra or {})
+
+
+def _value_range(lines: Sequence[Line], window_s: tuple[float, float]) -> Json:
+    """A range that shows all values within a stretch of time; plotly's own if there are none."""
+    low, high = np.inf, -np.inf
+    for line in lines:
+        within = (line.t_s >= window_s[0]) & (line.t_s <= window_s[1])
+        values = line.values[within & (np.abs(line.values) < LARGEST_DRAWN)]
+        if len(values):
+            low, high = min(low, float(values.min())), max(high, float(values.max()))
+    if low >= high:
+        return {}
+    room = 0.06 * (high - low)
+    return {"range": [low - room, high + room]}
 
 
 def _shade(phase: Phase) -> Json:

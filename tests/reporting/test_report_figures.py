@@ -16,7 +16,7 @@ from inspect_cli.reporting.figures_scene import patch_mesh
 from inspect_cli.reporting.points import read_points
 from inspect_cli.reporting.potential_scale import colour_scale, colours
 from inspect_cli.reporting.rows import attitude_difference_mrad, held_at, roll_pitch_yaw_deg
-from inspect_cli.reporting.timeline import BUCKETS, contact_phases, thinned
+from inspect_cli.reporting.timeline import BUCKETS, thinned, timeline_of
 from inspect_cli.schema.plan import PlannedSurface
 from inspect_cli.spatial.rotations import matrix_to_quaternion, roll_pitch_yaw_matrix
 
@@ -44,13 +44,13 @@ def test_thinning_keeps_every_peak_and_every_gap() -> None:
 
 def test_phases_are_the_presses(fly: Fly) -> None:
     flight = fly(1, 3)
-    phases = contact_phases(flight.rows(Reference), flight.plan)
+    phases = timeline_of(flight.rows(Reference), flight.plan).phases
     assert [phase.label for phase in phases] == ["1", "2", "3"]
     for phase in phases:
         assert phase.end_s - phase.start_s == pytest.approx(4.5, abs=0.011)
     # A log that is cut in the middle of a contact still shades it, up to its end.
     flight.cut_at(phases[1].start_s + 1.0)
-    last = contact_phases(flight.rows(Reference), flight.plan)[-1]
+    last = timeline_of(flight.rows(Reference), flight.plan).phases[-1]
     assert last.label == "2"
     assert last.end_s == flight.rows(Reference)["t_s"][-1]
 
@@ -68,6 +68,15 @@ def test_attitudes_as_angles() -> None:
     turned = np.column_stack([w * c - z * s, x * c + y * s, y * c - x * s, z * c + w * s])
     difference = attitude_difference_mrad(q, turned)
     assert difference == pytest.approx(np.tile([0.0, 0.0, 3.0], (3, 1)), abs=1e-6)
+
+
+def test_axes_are_scaled_to_the_flight_off_the_ground(fly: Fly, report: Report) -> None:
+    flight = fly(1, 1)
+    state, mode = flight.rows(State), flight.rows(Reference)["mode"]
+    state["wrench_ext_B"][mode == Mode.IDLE, 2] = 46.6
+    flight.rows(Estimate)["wrench_B"][mode == Mode.LANDED, 2] = np.inf
+    low, high = report(flight).page.figures["wrench-force"]["layout"]["yaxis3"]["range"]
+    assert -2.0 < low < high < 2.0
 
 
 def test_rows_are_held_until_the_next() -> None:

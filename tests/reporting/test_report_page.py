@@ -208,6 +208,14 @@ def test_every_kind_of_end_is_reported(
                 assert len({len(decoded(column)) for column in columns}) == 1, name
 
 
+def test_an_expected_abort_is_told_as_such(fly: Fly, report: Report) -> None:
+    flight = fly(1, 1)
+    flight.mission = flight.mission.model_copy(update={"expect_status": "aborted"})
+    assert "expects it to be aborted, which it was not." in report(flight).page.text
+    flight.status = "aborted"
+    assert "expects it to be aborted, as it was." in report(flight).page.text
+
+
 def test_a_real_flight_claims_no_simulation(fly: Fly, report: Report) -> None:
     page = report(fly().without_truth()).page
     assert "simulated" not in page.text
