@@ -33,7 +33,7 @@ SETTLE_S = 1.0
 PAUSE_S = 0.2
 """At rest at the end of each stretch before the next begins."""
 SAFE_HOVER_S = 3.0
-"""Hover after an abort before the run ends."""
+"""Hover at rest after an abort before the run ends."""
 TOUCHDOWN_M = 0.15
 """How far below standing height the vehicle leans on the ground before its motors stop."""
 BEFORE_CONTACT_M = 0.01
@@ -185,7 +185,7 @@ class Executive:
         if self.mode == Mode.IDLE:
             return t_s - self._since_s >= SETTLE_S
         if self.mode == Mode.HOVER:
-            return t_s - self._since_s >= SAFE_HOVER_S
+            return self._rested(t_s, SAFE_HOVER_S)
         if self.mode == Mode.LANDED:
             return self._settled_down(t_s)
         if self.mode == Mode.PRESS:
@@ -201,13 +201,14 @@ class Executive:
             self._down, self._since_s = True, t_s
         return self._down and t_s - self._since_s >= SETTLE_S
 
-    def _rested(self, t_s: float) -> bool:
+    def _rested(self, t_s: float, for_s: float = PAUSE_S) -> bool:
+        """Whether the reference has been at rest at its goal for so long."""
         if not self._guidance.arrived(t_s):
             self._resting_since_s = None
             return False
         if self._resting_since_s is None:
             self._resting_since_s = t_s
-        return t_s - self._resting_since_s >= PAUSE_S
+        return t_s - self._resting_since_s >= for_s
 
     def _advance(self, t_s: float) -> None:
         if self.mode in (Mode.HOVER, Mode.LANDED):

@@ -78,32 +78,33 @@ class Failsafe:
     action: Action
 
 
+# Each condition is written so that a NaN violates it.
 FAILSAFES: tuple[Failsafe, ...] = (
     Failsafe(
         "pose measurements lost",
         FLYING,
-        lambda i: i.t_s - i.pose_heard_s > 0.25,
+        lambda i: not i.t_s - i.pose_heard_s <= 0.25,
         0.0,
         Action.HOVER,
     ),
     Failsafe(
         "surface not seen by the depth camera",
         NEAR_SURFACE,
-        lambda i: i.t_s - i.surface_seen_s > 0.5,
+        lambda i: not i.t_s - i.surface_seen_s <= 0.5,
         1.5,
         Action.RETREAT,
     ),
     Failsafe(
         "position error above 0.6 m",
         FLYING,
-        lambda i: i.position_error_m > 0.6,
+        lambda i: not i.position_error_m <= 0.6,
         0.5,
         Action.RETREAT,
     ),
     Failsafe(
         "attitude error above 0.6 rad",
         FLYING,
-        lambda i: i.attitude_error_rad > 0.6,
+        lambda i: not i.attitude_error_rad <= 0.6,
         0.3,
         Action.RETREAT,
     ),

@@ -104,9 +104,10 @@ class Flight:
         """Fly to the end; ``progress`` is called with the time of flight ten times a second."""
         begun = perf_counter()
         self.plant.place(posture_of(self.plan.start))
-        self.instruments.sample_pose(self.plant.state)
-        self.stack.start(self.instruments.pose.measurement)
         t_s = 0.0
+        if not self._start_stack():
+            self.executive.give_up("aborted", "no pose measurement to start from")
+            return Ending("aborted", self.executive.reason, t_s, perf_counter() - begun, 0.0)
         for tick in self.clock.ticks(self._limit_s):
             t_s = tick.t_s
             self._tick(tick)
@@ -120,13 +121,22 @@ class Flight:
         status, reason = self.executive.status, self.executive.reason
         return Ending(status, reason, t_s, wall_s, self.recorder.wall_s)
 
+    def _start_stack(self) -> bool:
+        """Begin the estimate at the tracker's first measurement, if there is one."""
+        heard = self.instruments.sample_pose(self.plant.state)
+        pose = self.instruments.pose.measurement
+        if not (heard and np.isfinite(pose.p_WB).all() and np.isfinite(pose.q_WB).all()):
+            return False
+        self.stack.start(pose)
+        return True
+
     def _tick(self, tick: Tick) -> None:
         due, plant, stack = tick.due, self.plant, self.stack
         state = plant.observe(tick.t_s)
         if "imu" in due and self.instruments.sample_imu(state):
             stack.on_imu(self.instruments.imu.measurement)
         if "pose" in due:
-            self._correct_estimate(state)
+            self._correct_estimate(tick.t_s, state)
         if "tof" in due and self.instruments.sample_tof(state):
             self._see_surface(tick.t_s)
         if "probe" in due:
@@ -146,10 +156,10 @@ class Flight:
                 tick.t_s, state, contact, self.guidance.reference, stack, self.instruments
             )
 
-    def _correct_estimate(self, state: State) -> None:
+    def _correct_estimate(self, t_s: float, state: State) -> None:
         heard = self.instruments.sample_pose(state)
         if heard and self.stack.on_pose(self.instruments.pose.measurement):
-            self.executive.heard_pose(state.t_s)
+            self.executive.heard_pose(t_s)
 
     def _see_surface(self, t_s: float) -> None:
         """Turn the depth image into a surface estimate."""
