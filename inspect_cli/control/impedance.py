@@ -29,6 +29,7 @@ from inspect_cli.spatial.rotations import (
     quaternion_log,
     quaternion_multiply,
     rotate_back,
+    turned,
 )
 from inspect_cli.spatial.types import Matrix, Structured, Vector
 
@@ -65,8 +66,8 @@ def impedance_wrench(
 
     # M v̇_ref + C v + g of a rigid body about O_b whose centre of mass is at com_B.
     centripetal = cross(w, cross(w, com_B))
-    gyroscopic = cross(w, inertia_B @ w)
-    angular = inertia_B @ alpha_ref_B
+    gyroscopic = cross(w, turned(inertia_B, w))
+    angular = turned(inertia_B, alpha_ref_B)
     tangential = cross(alpha_ref_B, com_B)
     lever = cross(com_B, a_ref_B + up_B)
     for k in range(3):

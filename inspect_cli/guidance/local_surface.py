@@ -15,6 +15,7 @@ import numpy as np
 from inspect_cli.compiled import kernel
 from inspect_cli.records import SurfaceEstimate
 from inspect_cli.schema.platform import TofModel
+from inspect_cli.spatial.rotations import turned
 from inspect_cli.spatial.types import Matrix, Points, Vector
 
 MIN_POINTS = 30
@@ -104,7 +105,7 @@ def fit_local_plane(
     sign = -1.0 if axes[2, low] > 0.0 else 1.0
     n_T = np.array([sign * axes[0, low], sign * axes[1, low], sign * axes[2, low]])
     to_plane = n_T[0] * mean_T[0] + n_T[1] * mean_T[1] + n_T[2] * mean_T[2]
-    p_TC_W, turned_n = _turned(R_WT, mean_T), _turned(R_WT, n_T)
+    p_TC_W, turned_n = turned(R_WT, mean_T), turned(R_WT, n_T)
     square = 0.0
     for i in range(3):
         square += (mean_T[i] + p_DT[i]) * (mean_T[i] + p_DT[i])
@@ -145,15 +146,6 @@ def _gather(points_D: Points, p_DT: Vector, radius: float, mean_T: Vector, scatt
             scatter[i, j] = scatter[i, j] / n - mean_T[i] * mean_T[j]
             scatter[j, i] = scatter[i, j]
     return n
-
-
-@kernel
-def _turned(R: Matrix, x: Vector) -> Vector:
-    """R x."""
-    out = np.empty(3)
-    for i in range(3):
-        out[i] = R[i, 0] * x[0] + R[i, 1] * x[1] + R[i, 2] * x[2]
-    return out
 
 
 @kernel

@@ -93,6 +93,10 @@ def read_state(
         row["rotor_thrust"][i] = activation[i]
 
 
+def _ignore(warning: str) -> None:
+    """MuJoCo counts its warnings in the data as well."""
+
+
 class Plant:
     """The true vehicle in the true world."""
 
@@ -105,6 +109,8 @@ class Plant:
         proximity: Proximity,
         control_hz: int,
     ) -> None:
+        # MuJoCo would write its warnings into a file where the user stands; ``diverged`` tells.
+        mujoco.set_mju_user_warning(_ignore)
         self.model = model
         self.data = mujoco.MjData(model)
         self.state = State.create(lengths)

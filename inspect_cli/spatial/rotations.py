@@ -30,6 +30,18 @@ def cross(a: Vector, b: Vector) -> Vector:
 
 
 @kernel
+def turned(R: Matrix, x: Vector) -> Vector:
+    """R x for a (3, 3) matrix; ``@`` would call BLAS, and compile for it."""
+    return np.array(
+        [
+            R[0, 0] * x[0] + R[0, 1] * x[1] + R[0, 2] * x[2],
+            R[1, 0] * x[0] + R[1, 1] * x[1] + R[1, 2] * x[2],
+            R[2, 0] * x[0] + R[2, 1] * x[1] + R[2, 2] * x[2],
+        ]
+    )
+
+
+@kernel
 def quaternion_multiply(a: Vector, b: Vector) -> Vector:
     """The Hamilton product a ⊗ b: the rotation b, then a."""
     return np.array(

@@ -45,6 +45,7 @@ def group_kappa_m(platform: TiltRotorPlatform) -> Vector:
 def build_spec(platform: TiltRotorPlatform) -> mujoco.MjSpec:
     """The vehicle alone, hovering nowhere: see the contract in ``vehicles.kinds``."""
     spec = mujoco.MjSpec()
+    spec.compiler.degree = False
     spec.option.timestep = 1.0 / platform.rates.physics_hz
     spec.option.gravity = np.array([0.0, 0.0, -GRAVITY_MPS2])
     spec.option.cone = mujoco.mjtCone.mjCONE_ELLIPTIC
