@@ -1,0 +1,42 @@
+"""A second kind of vehicle, which the project knows nothing of: 8 rotors, one arm joint."""
+
+from __future__ import annotations
+
+import mujoco
+import numpy as np
+
+from canted_octorotor.abilities import CantedOctorotorCapabilities
+from canted_octorotor.file_model import N_ROTORS, CantedOctorotorPlatform
+from canted_octorotor.fixed_allocation import FixedAllocation
+from canted_octorotor.mujoco_model import build_spec
+from inspect_cli.interfaces import FlightStack
+from inspect_cli.vehicles.kinds import Actuators, Tip
+from inspect_cli.vehicles.rigid_body import nominal_body
+from inspect_cli.vehicles.stack import ImpedanceStack
+
+
+class CantedOctorotor:
+    """One vehicle, built from its platform file."""
+
+    def __init__(self, platform: CantedOctorotorPlatform, profile: str) -> None:
+        self.platform = platform
+        self._profile = platform.control.profiles[profile]
+        rotors, wrist = platform.rotors, platform.wrist
+        self.actuators = Actuators(
+            time_up_s=np.full(N_ROTORS, rotors.time_up_s),
+            time_down_s=np.full(N_ROTORS, rotors.time_down_s),
+            joint_rate_radps=np.array([wrist.servo_rate_radps]),
+            rotor_radius_m=rotors.radius_m,
+        )
+        self.tip = Tip(wrist.tip_radius_m, wrist.tip_stiffness_npm, wrist.tip_damping_ratio)
+        self._body = nominal_body(build_spec(platform))
+        self.capabilities = CantedOctorotorCapabilities(platform, self._profile, self._body)
+
+    def nominal_spec(self) -> mujoco.MjSpec:
+        return build_spec(self.platform)
+
+    def flight_stack(self) -> FlightStack:
+        allocation = FixedAllocation(self.platform.rotors)
+        return ImpedanceStack(
+            self.platform, self.capabilities, self._body, self._profile, allocation
+        )

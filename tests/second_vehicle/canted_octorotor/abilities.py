@@ -1,0 +1,107 @@
+"""What planning and guidance may know of a canted octorotor."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from canted_octorotor.file_model import (
+    N_ROTORS,
+    CantedOctorotorPlatform,
+    rotor_geometry,
+    tool_in_body,
+)
+from canted_octorotor.fixed_allocation import FixedAllocation
+from inspect_cli.control.impedance import GRAVITY_MPS2, RigidBody, steady_contact_force
+from inspect_cli.interfaces import Margins, Posture
+from inspect_cli.schema.platform import ImpedanceProfile
+from inspect_cli.spatial.rotations import matrix_to_quaternion, quaternion_to_matrix
+from inspect_cli.spatial.types import Matrix, Points, Vector
+
+AIR_DENSITY_KGPM3 = 1.225
+WRIST_SPHERE_M = 0.04
+LEVEL = 1e-6
+
+
+class CantedOctorotorCapabilities:
+    """The body stays level: heading and position are the body's, the pitch is the wrist's."""
+
+    def __init__(
+        self, platform: CantedOctorotorPlatform, profile: ImpedanceProfile, body: RigidBody
+    ) -> None:
+        self._platform = platform
+        self._profile = profile
+        self._body = body
+        self._allocation = FixedAllocation(platform.rotors)
+        self.lengths = {"n_rotors": N_ROTORS, "n_joints": 1, "n_arm": 1}
+        self.max_speed_mps = platform.limits.speed_mps
+        self.max_acceleration_mps2 = platform.limits.acceleration_mps2
+        self.max_angular_rate_radps = platform.limits.angular_rate_radps
+        self.standing_height_m = platform.core.gear_height_m
+
+    def tool_pose(self, posture: Posture) -> tuple[Vector, Matrix]:
+        R_WB = quaternion_to_matrix(posture.q_WB)
+        p_BT, R_BT = tool_in_body(self._platform.wrist, _angle(posture))
+        return posture.p_WB + R_WB @ p_BT, R_WB @ R_BT
+
+    def posture_for_tool(self, p_WT: Vector, R_WT: Matrix, near: Posture) -> Posture | None:
+        """y_B = y_T has to be level, and z_T within the wrist's range of x_B."""
+        y, z_T = R_WT[:, 1], R_WT[:, 2]
+        if abs(y[2]) > LEVEL:
+            return None
+        R_WB = np.column_stack([[y[1], -y[0], 0.0], [y[0], y[1], 0.0], [0.0, 0.0, 1.0]])
+        angle = np.arctan2(-z_T[2], z_T @ R_WB[:, 0])
+        if abs(angle) > np.radians(self._platform.wrist.range_deg):
+            return None
+        p_BT, _ = tool_in_body(self._platform.wrist, angle)
+        return Posture(p_WT - R_WB @ p_BT, matrix_to_quaternion(R_WB), np.array([angle]))
+
+    def collision_spheres(self, posture: Posture) -> Points:
+        core, rotors, wrist = self._platform.core, self._platform.rotors, self._platform.wrist
+        centers = np.vstack(
+            [
+                np.zeros(3),
+                rotor_geometry(rotors)[0],
+                wrist.position_B_m,
+                np.array(wrist.position_B_m) + 0.5 * wrist.length_m * self._axis_B(posture),
+            ]
+        )
+        radii = [core.radius_m, *[rotors.radius_m] * N_ROTORS, WRIST_SPHERE_M, WRIST_SPHERE_M]
+        R_WB = quaternion_to_matrix(posture.q_WB)
+        return np.column_stack([posture.p_WB + centers @ R_WB.T, radii])
+
+    def margins(self, posture: Posture, wrench_tool_W: Vector) -> Margins:
+        """Thrust left above or below in the worst rotor, and the wrist's way to its limit."""
+        R_WB = quaternion_to_matrix(posture.q_WB)
+        p_BT, _ = tool_in_body(self._platform.wrist, _angle(posture))
+        force_B, torque_B = R_WB.T @ wrench_tool_W[:3], R_WB.T @ wrench_tool_W[3:]
+        pushed = np.concatenate([force_B, torque_B + np.cross(p_BT, force_B)])
+        thrusts = self._allocation.thrusts(self._weight_B(R_WB) - pushed)
+        left = np.minimum(thrusts, self._platform.rotors.max_thrust_n - thrusts)
+        reach = np.radians(self._platform.wrist.range_deg)
+        return Margins(float(left.min()), float(reach - abs(_angle(posture))))
+
+    def press_force(self, press_m: float) -> float:
+        _, R_BT = tool_in_body(self._platform.wrist, 0.0)
+        stiffness, z_T = np.array(self._platform.control.stiffness_npm), R_BT[:, 2]
+        force = steady_contact_force(self._profile, stiffness, R_BT, -press_m * z_T)
+        return float(-force @ z_T)
+
+    def hover_power_w(self, posture: Posture) -> float:
+        R_WB = quaternion_to_matrix(posture.q_WB)
+        thrusts = np.maximum(self._allocation.thrusts(self._weight_B(R_WB)), 0.0)
+        area = np.pi * self._platform.rotors.radius_m**2
+        induced = float(np.sum(thrusts**1.5)) / np.sqrt(2.0 * AIR_DENSITY_KGPM3 * area)
+        battery = self._platform.battery
+        return float(induced / battery.figure_of_merit + battery.avionics_w)
+
+    def _weight_B(self, R_WB: Matrix) -> Vector:
+        """The wrench (6,) that carries the weight."""
+        up_B = self._body.mass_kg * GRAVITY_MPS2 * R_WB[2]
+        return np.concatenate([up_B, np.cross(self._body.com_B, up_B)])
+
+    def _axis_B(self, posture: Posture) -> Vector:
+        return tool_in_body(self._platform.wrist, _angle(posture))[1][:, 2]
+
+
+def _angle(posture: Posture) -> float:
+    return float(posture.arm_angle[0]) if posture.arm_angle.size else 0.0
