@@ -1,0 +1,26 @@
+"""The built-in tilt-rotor platform, with its arm at any angle."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+
+from inspect_cli.schema.loading import load_platform
+from inspect_cli.schema.platform import TiltRotorPlatform
+
+Pitched = Callable[[float], TiltRotorPlatform]
+
+
+@pytest.fixture(scope="session")
+def pitched(root: Path) -> Pitched:
+    """The platform with its arm at an angle from −z_B: 90° ahead, 150° is 30° off the zenith."""
+    platform = load_platform(root / "platforms" / "tilt_rotor_hexarotor.yaml")
+    assert isinstance(platform, TiltRotorPlatform)
+
+    def at(pitch_deg: float) -> TiltRotorPlatform:
+        tool = platform.tool.model_copy(update={"pitch_deg": pitch_deg})
+        return platform.model_copy(update={"tool": tool})
+
+    return at
