@@ -18,8 +18,8 @@ def nearest_surface(prims: Structured, p_W: Vector, contact: Structured) -> int:
     nearest, index = np.inf, -1
     for i in range(prims.shape[0]):
         distance = patch_distance(prims, i, p_W)
-        if abs(distance) < nearest:
-            nearest, index = abs(distance), i
+        if abs(distance) < abs(nearest):
+            nearest, index = distance, i
     row["surface"] = index
     if index < 0:
         row["distance"] = np.nan
@@ -27,9 +27,12 @@ def nearest_surface(prims: Structured, p_W: Vector, contact: Structured) -> int:
         row["uv"][:] = np.nan
         return index
     foot = project(prims, index, p_W)
-    row["distance"] = foot[2]
-    row["uv"][:] = foot[:2]
-    row["n_W"][:] = normal_at(prims, index, foot[0], foot[1])
+    row["distance"] = nearest
+    normal = normal_at(prims, index, foot[0], foot[1])
+    for k in range(2):
+        row["uv"][k] = foot[k]
+    for k in range(3):
+        row["n_W"][k] = normal[k]
     return index
 
 

@@ -1,4 +1,4 @@
-"""Wall, ceiling and ground effect on rotors: a factor on each group's thrust at constant command.
+"""Wall, ceiling and ground effect on rotors: a factor on each rotor's thrust at constant command.
 
 Stated model, for a rotor of radius R at distance d from a surface (all three multiply):
 
@@ -11,8 +11,8 @@ ground    T/T∞ = 1/(1 − (R/4z)²), Cheeseman & Bennett (ARC R&M 3021, 1955);
 wall      T/T∞ = 1 − 0.03 e^(−d/R), chosen: a few per cent of loss that fades within a rotor's
           radius, the size that near-wall hover tests report.
 
-Distances are measured from the group's middle: along the thrust for the ceiling, against it for
-the ground, and to the nearest surface for the wall.
+Distances are measured from the rotor's hub: along the thrust for the ceiling, against it for the
+ground, and to the nearest surface for the wall.
 """
 
 from __future__ import annotations
