@@ -3,6 +3,9 @@
 A kernel is a module-level pure function of numbers and arrays. ``NUMBA_DISABLE_JIT=1`` runs
 the same source as plain Python: there is no second implementation of any formula. The machine
 code is cached beside the source, so only the first run of an installation compiles.
+
+To compile quickly a kernel writes arrays element by element: assigning one array to a slice of
+another makes Numba compile its error messages about shapes, which takes seconds.
 """
 
 from __future__ import annotations

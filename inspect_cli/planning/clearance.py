@@ -151,7 +151,8 @@ def narrowest(prims: Structured, spheres_B: Points, ends: Points, steps: int) ->
                 if gap < found[0]:
                     found[0] = gap
                     found[2] = i
-                    found[3:] = center
+                    for axis in range(3):
+                        found[3 + axis] = center[axis]
     return found
 
 

@@ -80,8 +80,12 @@ def read_state(
         row["f_tool_W"][k] = -contact[k]
         row["wrench_ext_B"][3 + k] = constraint[3 + k] + applied[3 + k]
         force_W[k] = constraint[k] + applied[k]
-    row["wrench_ext_B"][:3] = rotate_back(q, force_W)
-    row["q_WT"][:] = matrix_to_quaternion(tip_axes.reshape(3, 3))
+    force_B = rotate_back(q, force_W)
+    q_WT = matrix_to_quaternion(tip_axes.reshape(3, 3))
+    for k in range(3):
+        row["wrench_ext_B"][k] = force_B[k]
+    for k in range(4):
+        row["q_WT"][k] = q_WT[k]
     # z_T is the third column of R_WT; what presses along it is pushed back against it.
     row["f_normal"] = tip_axes[2] * contact[0] + tip_axes[5] * contact[1] + tip_axes[8] * contact[2]
     row["f_body"] = np.sqrt(contact[3] ** 2 + contact[4] ** 2 + contact[5] ** 2)
