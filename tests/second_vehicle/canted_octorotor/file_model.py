@@ -15,7 +15,7 @@ N_ROTORS = 8
 
 
 class CantedRotors(Strict):
-    """Eight fixed rotors around O_b, leant to and fro by turns along the circle they stand on."""
+    """Eight fixed rotors on a circle around O_b, leant along it, every second one backwards."""
 
     distance_m: Positive
     cant_deg: Annotated[float, Field(gt=0, lt=90)]
@@ -59,12 +59,12 @@ def rotor_geometry(rotors: CantedRotors) -> tuple[Points, Points, Vector]:
     """
     psi = np.radians(22.5 + 45.0 * np.arange(N_ROTORS))
     lean = np.where(np.arange(N_ROTORS) % 2, -1.0, 1.0)
-    cant = np.radians(rotors.cant_deg)
+    angle = np.radians(rotors.cant_deg)
     zeros, ones = np.zeros(N_ROTORS), np.ones(N_ROTORS)
     outward = np.column_stack([np.cos(psi), np.sin(psi), zeros])
     along = np.column_stack([-np.sin(psi), np.cos(psi), zeros])
     up = np.column_stack([zeros, zeros, ones])
-    directions = np.cos(cant) * up + np.sin(cant) * lean[:, None] * along
+    directions = np.cos(angle) * up + np.sin(angle) * lean[:, None] * along
     return rotors.distance_m * outward, directions, -lean
 
 

@@ -1,0 +1,67 @@
+"""What every entry of ``METRICS`` keeps to."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from inspect_cli.commands.plan import plan_loaded, vehicle_of
+from inspect_cli.log.reader import RunLog
+from inspect_cli.metrics.catalogue import METRICS
+from inspect_cli.metrics.evaluate import measure
+from inspect_cli.metrics.flight import Flight
+from inspect_cli.records import CORE_RECORDS
+from inspect_cli.schema.loading import load_mission
+
+SUFFIXES = {
+    "m": ("_m",),
+    "rad": ("_rad",),
+    "°": ("_deg",),
+    "N": ("_n",),
+    "N·m": ("_nm",),
+    "V": ("_v",),
+    "s": ("_s",),
+    "Wh": ("_wh_planned",),
+    "m/s": ("_mps",),
+    "1": (
+        *("_cv", "_count", "_gaps", "_mask", "_mismatches", "_points", "_rel_max"),
+        *("_share", "_total", "_valid"),
+    ),
+}
+"""How the names of metrics end, by their unit."""
+
+
+@pytest.fixture(scope="module")
+def without_channels(root: Path) -> RunLog:
+    """A log that holds what was meant and nothing of what happened."""
+    loaded = load_mission(root / "missions" / "nine_point_half_cell.yaml")
+    plan = plan_loaded(loaded, vehicle_of(loaded))
+    models = {"mission": loaded.mission, "platform": loaded.platform, "plan": plan}
+    attachments = {
+        f"{name}.json": model.model_dump_json(by_alias=True).encode()
+        for name, model in models.items()
+    }
+    return RunLog(Path("flight.mcap"), "interrupted", "", {}, attachments, (), ())
+
+
+@pytest.mark.parametrize("name", METRICS)
+def test_its_name_ends_in_its_unit(name: str) -> None:
+    spec = METRICS[name]
+    assert name.endswith(SUFFIXES[spec.unit]), spec.unit
+    assert name.count(".") == 1
+    assert spec.meaning
+    assert not spec.meaning.endswith(".")
+    assert set(spec.needs) <= set(CORE_RECORDS)
+
+
+@pytest.mark.parametrize("name", METRICS)
+def test_it_is_not_measured_in_a_log_without_channels(name: str, without_channels: RunLog) -> None:
+    spec = METRICS[name]
+    metric = measure(spec, Flight(without_channels))
+    assert metric.unit == spec.unit
+    if not spec.needs:
+        assert metric.value is not None, "what needs no channel is told by the plan"
+        return
+    assert metric.value is None
+    assert all(record.topic in metric.why for record in spec.needs)
