@@ -20,6 +20,7 @@ from inspect_cli.guidance.motion import MotionLimits
 from inspect_cli.guidance.orientation import contact_orientation, heading_orientation
 from inspect_cli.guidance.quintic import evaluate_motion
 from inspect_cli.guidance.trajectory import (
+    CORRECTION_S,
     Trajectory,
     through,
     to_goal,
@@ -34,9 +35,6 @@ from inspect_cli.spatial.types import Matrix, Vector
 MAX_TILT_RAD = float(np.radians(30.0))
 MAX_SHIFT_M = 0.30
 """A plane turned or shifted by more than these from the planned one is taken for something else."""
-CORRECTION_S = 1.0
-"""A correction takes at least this long. Planned anew at every estimate, it also smooths the noise
-of the normals: the reference follows with about half of it."""
 ARRIVAL_M = 0.005
 ARRIVAL_RAD = float(np.radians(2.0))
 """Corrections smaller than these do not put off the arrival."""
@@ -187,6 +185,7 @@ class Pursuit:
         evaluate_motion(
             t_s - stretch.start_s,
             stretch.duration_s,
+            stretch.turn_s,
             stretch.position,
             stretch.rotation,
             stretch.q_start,

@@ -96,6 +96,7 @@ def body_rates(
 def evaluate_motion(
     t: float,
     duration: float,
+    turn_duration: float,
     position: Matrix,
     rotation: Matrix,
     q_start: Vector,
@@ -110,16 +111,17 @@ def evaluate_motion(
 ) -> None:
     """Write the body's motion ``t`` s after the start of a stretch; it rests after the end.
 
-    ``position``, ``rotation`` (6, 3) are the coefficients of p and φ, ``q_start`` (4,) is R_0,
-    ``p_BT`` (3,) m the tool's tip in B. The other arrays are written: m, m/s, m/s² in W; rad/s,
-    rad/s² in B.
+    The turn may come to rest before the way does. ``position``, ``rotation`` (6, 3) are the
+    coefficients of p and φ, ``q_start`` (4,) is R_0, ``p_BT`` (3,) m the tool's tip in B. The
+    other arrays are written: m, m/s, m/s² in W; rad/s, rad/s² in B.
     """
     s = min(max(t / duration, 0.0), 1.0)
     evaluate_quintic(position, s, duration, p_WB, v_WB_W, a_WB_W)
     phi = np.empty(3)
     phi_rate = np.empty(3)
     phi_acceleration = np.empty(3)
-    evaluate_quintic(rotation, s, duration, phi, phi_rate, phi_acceleration)
+    s = min(max(t / turn_duration, 0.0), 1.0)
+    evaluate_quintic(rotation, s, turn_duration, phi, phi_rate, phi_acceleration)
     body_rates(phi, phi_rate, phi_acceleration, w_WB_B, alpha_WB_B)
     q = quaternion_multiply(q_start, quaternion_exp(phi))
     tip = rotate(q, p_BT)
@@ -131,7 +133,12 @@ def evaluate_motion(
 
 @kernel
 def survey(
-    position: Matrix, rotation: Matrix, arm: Matrix, duration: float, limits: Vector
+    position: Matrix,
+    rotation: Matrix,
+    arm: Matrix,
+    duration: float,
+    turn_duration: float,
+    limits: Vector,
 ) -> tuple[float, float, float]:
     """How a stretch stands against its limits, at sampled instants.
 
@@ -146,7 +153,7 @@ def survey(
     ratio, aside, beyond = 0.0, 0.0, 0.0
     for k in range(SAMPLES + 1):
         s = k / SAMPLES
-        evaluate_quintic(rotation, s, duration, x, v, a)
+        evaluate_quintic(rotation, s, turn_duration, x, v, a)
         body_rates(x, v, a, w, alpha)
         ratio = max(ratio, _norm(w) / limits[2], _norm(alpha) / limits[3])
         evaluate_quintic(position, s, duration, x, v, a)

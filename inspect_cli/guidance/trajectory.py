@@ -36,6 +36,9 @@ from inspect_cli.spatial.types import Matrix, Vector
 
 SHORTEST_S = 0.1
 """No stretch is shorter, however near its goal."""
+CORRECTION_S = 1.0
+"""A correction takes at least this long. Planned anew at every estimate, it also smooths the noise
+of the normals: the reference follows with about half of it."""
 GROWTH = 1.1
 TRIES = 30
 """Durations are tried in a geometric sequence; together up to 17 times the first."""
@@ -49,10 +52,14 @@ brake plus 5 mm, and sideways by a tenth of the line's length more."""
 
 @dataclass(frozen=True)
 class Stretch:
-    """One quintic from a motion to rest: coefficients (6, n) in s = (t − start_s) / duration_s."""
+    """One quintic from a motion to rest: coefficients (6, n) in s = (t − start_s) / duration_s.
+
+    The turn has a duration of its own, ``turn_s`` ≤ ``duration_s``, and its s counts by that.
+    """
 
     start_s: float
     duration_s: float
+    turn_s: float
     position: Matrix
     rotation: Matrix
     q_start: Vector
@@ -67,15 +74,16 @@ class Stretch:
         phi: Vector,
         arm: Vector,
         duration_s: float,
+        turn_s: float,
     ) -> Stretch:
         """From ``start`` to rest at ``p_WB`` (3,), attitude R_0 Exp(``phi`` (3,)), ``arm`` (n,)."""
         position, rotation = np.empty((6, 3)), np.empty((6, 3))
         joints = np.empty((6, start.arm.shape[1]))
         quintic_to_rest(start.p_WB, start.v_WB_W, start.a_WB_W, p_WB, duration_s, position)
-        quintic_to_rest(np.zeros(3), start.w_WB_B, start.alpha_WB_B, phi, duration_s, rotation)
+        quintic_to_rest(np.zeros(3), start.w_WB_B, start.alpha_WB_B, phi, turn_s, rotation)
         angle, rate, acceleration = start.arm
         quintic_to_rest(angle, rate, acceleration, arm, duration_s, joints)
-        return cls(start_s, duration_s, position, rotation, start.q_WB, joints)
+        return cls(start_s, duration_s, turn_s, position, rotation, start.q_WB, joints)
 
     @property
     def end_s(self) -> float:
@@ -89,6 +97,7 @@ class Stretch:
         evaluate_motion(
             t_s - self.start_s,
             self.duration_s,
+            self.turn_s,
             self.position,
             self.rotation,
             self.q_start,
@@ -112,7 +121,14 @@ class Stretch:
 
     def survey(self, limits: MotionLimits) -> tuple[float, float, float]:
         """(largest share of a limit, way aside of the straight line, way beyond its ends)."""
-        return survey(self.position, self.rotation, self.arm, self.duration_s, limits.as_array())
+        return survey(
+            self.position,
+            self.rotation,
+            self.arm,
+            self.duration_s,
+            self.turn_s,
+            limits.as_array(),
+        )
 
 
 class Trajectory:
@@ -129,7 +145,7 @@ class Trajectory:
         """The posture, held from ``t_s`` on."""
         motion = Motion.at_rest(posture)
         goal = motion.p_WB, np.zeros(3), motion.arm[0]
-        return cls([Stretch.to_rest(t_s, motion, *goal, SHORTEST_S)])
+        return cls([Stretch.to_rest(t_s, motion, *goal, SHORTEST_S, SHORTEST_S)])
 
     @property
     def end_s(self) -> float:
@@ -169,14 +185,16 @@ def to_goal(
         joint = float(np.abs(arm - start.arm[0]).max(initial=0.0))
         turn = max(float(np.linalg.norm(phi)), joint)
         duration = max(duration, _rest_time(way, turn, limits))
+    turn_s = _turn_time(start, phi, limits, duration, CORRECTION_S)
     stray = 0.5 * float(np.linalg.norm(start.v_WB_W)) * braking + STRAY_M
     for _ in range(TRIES):
-        stretch = Stretch.to_rest(t_s, start, p_goal, phi, arm, duration)
+        stretch = Stretch.to_rest(t_s, start, p_goal, phi, arm, duration, turn_s)
         ratio, aside, beyond = stretch.survey(limits)
         aside -= STRAY_SHARE * float(np.linalg.norm(p_goal - start.p_WB))
         if ratio <= TOLERANCE and aside <= stray and beyond <= stray:
             return [stretch]
         duration *= GROWTH
+        turn_s = _turn_time(start, phi, limits, duration, turn_s * GROWTH)
     brake = to_stop(t_s, start, limits)
     return [brake, *to_goal(brake.end_s, brake.motion(brake.end_s), goal, limits)]
 
@@ -223,7 +241,7 @@ def _free_stop(t_s: float, start: Motion, T: float) -> Stretch:
     p_end = start.p_WB + 0.5 * T * start.v_WB_W + T * T / 12.0 * start.a_WB_W
     phi = 0.5 * T * start.w_WB_B + T * T / 12.0 * start.alpha_WB_B
     arm = start.arm[0] + 0.5 * T * start.arm[1] + T * T / 12.0 * start.arm[2]
-    return Stretch.to_rest(t_s, start, p_end, phi, arm, T)
+    return Stretch.to_rest(t_s, start, p_end, phi, arm, T, T)
 
 
 def turn_between(q_from: Vector, q_to: Vector) -> Vector:
@@ -241,6 +259,20 @@ def _rest_time(way: float, turn: float, limits: MotionLimits) -> float:
         15.0 / 8.0 * turn / limits.angular_rate_radps,
         math.sqrt(peak * turn / limits.angular_acceleration_radps2),
     )
+
+
+def _turn_time(
+    start: Motion, phi: Vector, limits: MotionLimits, duration_s: float, least_s: float
+) -> float:
+    """How long the turn takes within a stretch of ``duration_s``; ``least_s`` if it may.
+
+    From rest, as long as the way: then both follow one profile. A turn that is already under way
+    is a correction; stretched over a long way its small rate would carry it far off its goal.
+    """
+    if not start.w_WB_B.any():
+        return duration_s
+    angle = float(np.linalg.norm(phi))
+    return min(duration_s, max(least_s, _rest_time(0.0, angle, limits)))
 
 
 def _braking_time(start: Motion, limits: MotionLimits) -> float:

@@ -76,7 +76,7 @@ def test_stretch_joins_both_ends_and_its_rates_are_derivatives(seed):
     rng = np.random.default_rng(seed)
     start, goal = moving(rng), posture(rng)
     phi = (rotation(start.q_WB).inv() * rotation(goal.q_WB)).as_rotvec()
-    stretch = Stretch.to_rest(2.0, start, goal.p_WB, phi, goal.arm_angle, 5.0)
+    stretch = Stretch.to_rest(2.0, start, goal.p_WB, phi, goal.arm_angle, 5.0, 5.0)
     end = stretch.motion(7.0)
     assert same(stretch.motion(2.0), start)
     assert np.allclose(end.p_WB, goal.p_WB)
