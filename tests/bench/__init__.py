@@ -1,0 +1,1 @@
+"""What has a limit, measured: ``python -m tests.bench`` with nothing else running."""

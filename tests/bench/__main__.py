@@ -1,0 +1,48 @@
+"""Measure everything, show it, write ``reports/bench.json``; exit code 1 if a limit is broken."""
+
+from __future__ import annotations
+
+import sys
+from pathlib import Path
+
+from rich.console import Console
+from rich.table import Table
+
+from inspect_cli.files import write_whole
+from inspect_cli.schema.loading import load_mission
+from tests.bench import fits, flights, processes
+from tests.bench.rows import Row, as_json
+
+ROOT = Path(__file__).resolve().parents[2]
+MISSION = ROOT / "missions" / "nine_point_half_cell.yaml"
+
+
+def main() -> int:
+    """Measure, write, tell."""
+    console = Console()
+    rows: list[Row] = []
+    for measured in (
+        fits.measure(),
+        flights.measure(load_mission(MISSION)),
+        processes.measure(MISSION),
+    ):
+        rows.extend(measured)
+    write_whole(ROOT / "reports" / "bench.json", as_json(rows))
+    console.print(_table(rows))
+    return 0 if all(row.ok for row in rows) else 1
+
+
+def _table(rows: list[Row]) -> Table:
+    table = Table("what", "measured", "limit", "", title="reports/bench.json")
+    for row in rows:
+        sign = "≤" if row.bound == "max" else "≥"
+        unit = "" if row.unit == "1" else f" {row.unit}"
+        verdict = "[green]ok" if row.ok else "[bold red]broken"
+        table.add_row(row.name, f"{row.value:.3g}{unit}", f"{sign} {row.limit:g}{unit}", verdict)
+    for index in (1, 2):
+        table.columns[index].justify = "right"
+    return table
+
+
+if __name__ == "__main__":
+    sys.exit(main())

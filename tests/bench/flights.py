@@ -1,0 +1,117 @@
+"""The flight loop against the bare physics.
+
+A flight with everything (sensors, estimation, guidance, control, recording, the log down to its
+last byte) is timed in turns with ``mujoco.rollout`` of the same model: the same controls at the
+same steps from the same state, on one thread, into memory that is already there.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from pathlib import Path
+from statistics import median
+from tempfile import TemporaryDirectory
+from time import perf_counter
+
+import mujoco
+import numpy as np
+from mujoco import rollout
+
+from inspect_cli.autonomy.executive import posture_of
+from inspect_cli.commands.plan import plan_loaded, vehicle_of
+from inspect_cli.log.writer import LogWriter
+from inspect_cli.records import CORE_RECORDS
+from inspect_cli.schema.loading import Loaded
+from inspect_cli.simulation.loop import Flight
+from tests.bench.rows import Row
+
+PAIRS = 5
+STATE = mujoco.mjtState.mjSTATE_FULLPHYSICS
+
+
+@dataclass(frozen=True)
+class Timed:
+    """One flight: wall-clock times of the whole and of its log, and the time that was flown."""
+
+    wall_s: float
+    log_s: float
+    flight_s: float
+
+
+class Pair:
+    """Flies a mission, and replays what its plant was told."""
+
+    def __init__(self, loaded: Loaded, folder: Path) -> None:
+        self._loaded = loaded
+        self._vehicle = vehicle_of(loaded)
+        self._plan = plan_loaded(loaded, self._vehicle)
+        self._file = folder / "flight.mcap"
+        self._prepare_replay()
+
+    def fly(self) -> Timed:
+        """Fly once and close the log."""
+        flight, log = self._flight()
+        begun = perf_counter()
+        ending = flight.run()
+        landed = perf_counter()
+        log.close(ending.status, ending.reason)
+        closed = perf_counter()
+        log_s = ending.log_wall_s + closed - landed
+        return Timed(closed - begun, log_s, ending.flight_s)
+
+    def replay_s(self) -> float:
+        """The time of the bare physics."""
+        begun = perf_counter()
+        rollout.rollout(
+            self._model,
+            self._data,
+            self._start,
+            self._controls,
+            state=self._states,
+            sensordata=self._sensors,
+        )
+        return perf_counter() - begun
+
+    def _flight(self) -> tuple[Flight, LogWriter]:
+        lengths = self._vehicle.capabilities.lengths
+        log = LogWriter(self._file, CORE_RECORDS, lengths)
+        loaded = self._loaded
+        seed = loaded.mission.seeds[0]
+        return Flight(self._vehicle, self._plan, loaded.truth, loaded.root, seed, log), log
+
+    def _prepare_replay(self) -> None:
+        """Fly once, which also compiles every kernel, and keep the controls of each step."""
+        flight, log = self._flight()
+        plant, told = flight.plant, []
+        step = plant.step
+
+        def remembering(steps: int) -> None:
+            told.append((plant.data.ctrl.copy(), steps))
+            step(steps)
+
+        plant.step = remembering
+        ending = flight.run()
+        log.close(ending.status, ending.reason)
+        plant.place(posture_of(self._plan.start))
+        self._model, self._data = plant.model, [mujoco.MjData(plant.model)]
+        start = np.empty(mujoco.mj_stateSize(plant.model, STATE))
+        mujoco.mj_getState(plant.model, plant.data, start, STATE)
+        self._start = start[None]
+        controls = np.concatenate([np.tile(ctrl, (steps, 1)) for ctrl, steps in told])
+        self._controls = controls[None]
+        self._states = np.zeros((1, len(controls), len(start)))
+        self._sensors = np.zeros((1, len(controls), plant.model.nsensordata))
+
+
+def measure(loaded: Loaded) -> Iterator[Row]:
+    """Medians over pairs of a flight and a replay."""
+    with TemporaryDirectory() as folder:
+        pair = Pair(loaded, Path(folder))
+        pairs = [(pair.fly(), pair.replay_s()) for _ in range(PAIRS)]
+    ratio = median(flown.wall_s / bare_s for flown, bare_s in pairs)
+    yield Row("flight.ratio_to_open_loop", ratio, "1", 2.5)
+    factor = median(flown.flight_s / flown.wall_s for flown, _ in pairs)
+    yield Row("flight.real_time_factor", factor, "1", 30.0, "min")
+    share = median(flown.log_s / flown.wall_s for flown, _ in pairs)
+    yield Row("log.share_of_flight", share, "1", 0.10)
