@@ -1,0 +1,58 @@
+"""The schedule against brute force over every physics step."""
+
+from __future__ import annotations
+
+import itertools
+
+import pytest
+
+from inspect_cli.schema.platform import Rates
+from inspect_cli.simulation.clock import Clock
+
+FLIGHT = {"imu": 250, "pose": 100, "tof": 10, "probe": 50, "guidance": 5, "log": 100}
+
+
+@pytest.mark.parametrize(
+    ("physics_hz", "rates"),
+    [
+        (1000, FLIGHT),
+        (1000, {"only": 8}),
+        (1000, {"a": 1000, "b": 125}),
+        (600, {"a": 200, "b": 120, "c": 75}),
+        (1000, {"slow": 1, "odd": 40}),
+    ],
+)
+def test_every_tick_and_no_other(physics_hz: int, rates: dict[str, int]) -> None:
+    limit_s = 3.0
+    expected = []
+    for step in range(int(limit_s * physics_hz) + 1):
+        due = {name for name, hz in rates.items() if step % (physics_hz // hz) == 0}
+        if due:
+            expected.append((step, due))
+    ticks = list(Clock(physics_hz, rates).ticks(limit_s))
+    assert [(tick.step, set(tick.due)) for tick in ticks] == expected
+    for tick, following in itertools.pairwise(ticks):
+        assert tick.step + tick.steps_to_next == following.step
+    assert [tick.t_s for tick in ticks] == [tick.step / physics_hz for tick in ticks]
+
+
+def test_the_first_tick_has_everything_due() -> None:
+    first = next(Clock(1000, FLIGHT).ticks(1.0))
+    assert (first.step, first.t_s, set(first.due)) == (0, 0.0, set(FLIGHT))
+
+
+def test_hours_later_the_time_is_not_accumulated() -> None:
+    *_, last = Clock(1000, {"slow": 1}).ticks(20_000.0)
+    assert last.t_s == 20_000.0
+
+
+@pytest.mark.parametrize("hz", [0, -5, 300, 333, 2000])
+def test_rates_that_do_not_divide_are_refused(hz: int) -> None:
+    with pytest.raises(ValueError, match="does not divide 1000 Hz"):
+        Clock(1000, {"fine": 100, "bad": hz})
+
+
+@pytest.mark.parametrize("name", sorted(set(Rates.model_fields) - {"physics_hz"}))
+def test_a_platform_with_such_rates_is_refused(name: str) -> None:
+    with pytest.raises(ValueError, match=name):
+        Rates(**{name: 300})
