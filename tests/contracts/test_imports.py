@@ -10,9 +10,11 @@ from pathlib import Path
 
 import pytest
 
-MODULE_S = 0.25
-"""The longest that one module may take when what it stands on is there: class bodies and
-decorators of a few hundred lines, with room for a busy machine."""
+pytestmark = pytest.mark.xdist_group("imports")  # one process for all
+
+WORK_S = 1.0
+"""Processor time that a module, with those of ours that it imports, stays far below: it defines
+classes and functions. Compiling a kernel, reading a scan or planning would take longer."""
 HEAVY = {"mujoco", "numba", "open3d", "scipy", "plotly", "mcap", "numpy"}
 
 PROBE = """
@@ -23,9 +25,9 @@ import pydantic, rich.console, rich.progress, typer.testing, zstandard, yaml  # 
 
 took = {}
 for name in json.loads(sys.argv[1]):
-    begun = time.perf_counter()
+    begun = time.process_time()
     importlib.import_module(name)
-    took[name] = time.perf_counter() - begun
+    took[name] = time.process_time() - begun
 compiled = [
     f"{name}.{key}"
     for name in took
@@ -67,8 +69,8 @@ def test_nothing_is_compiled(probe: dict[str, object]) -> None:
     assert probe["compiled"] == []
 
 
-def test_no_module_takes_long(probe: dict[str, dict[str, float]]) -> None:
-    slow = {name: took for name, took in probe["took"].items() if took > MODULE_S}
+def test_no_module_works(probe: dict[str, dict[str, float]]) -> None:
+    slow = {name: took for name, took in probe["took"].items() if took > WORK_S}
     assert slow == {}
 
 

@@ -16,6 +16,8 @@ from inspect_cli.schema.loading import load_mission
 from inspect_cli.schema.plan import Plan, PlanFile
 from inspect_cli.schema.result import Result
 
+pytestmark = pytest.mark.xdist_group("round_trips")  # one flight for all
+
 MISSION = """\
 schema: 1
 name: one-point

@@ -19,6 +19,8 @@ from inspect_cli.schema.loading import load_mission
 from inspect_cli.schema.plan import PlanFile
 from inspect_cli.spatial.rotations import quaternion_to_matrix
 
+pytestmark = pytest.mark.xdist_group("octorotor")  # one flight for all
+
 DAM_DEG, OVERHANG_DEG = 25.0, -20.0
 """How far the believed walls lean; the wrist lowers the tool by that."""
 HIDDEN_DEG = 4.0
