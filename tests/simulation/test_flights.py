@@ -1,0 +1,266 @@
+"""Whole flights: faults end them safely, truth does not leak, the same seed repeats."""
+
+from __future__ import annotations
+
+import subprocess
+import sys
+from collections.abc import Callable
+from pathlib import Path
+
+import numpy as np
+import pytest
+from scenarios import Array, Flown, Scenario
+
+from inspect_cli.interfaces import Posture
+from inspect_cli.records import Mode, Record, State
+from inspect_cli.simulation.instruments import Instruments
+from inspect_cli.simulation.plant import Plant
+from inspect_cli.simulation.recorder import Recorder
+from inspect_cli.truth.contact import ContactTruth
+from inspect_cli.vehicles.stack import ImpedanceStack
+
+Fly = Callable[[Scenario], Flown]
+pytestmark = pytest.mark.xdist_group("flights")
+
+SHORT = Scenario("short")
+WALL_X = 2.0
+
+
+def test_a_short_flight_reads_both_points_and_lands(flown: Fly) -> None:
+    flight = flown(SHORT)
+    assert flight.outcome.result.status == "completed"
+    assert flight.reasons == ["", ""]
+    order = [Mode(int(m)) for m in flight.mode[np.diff(flight.mode, prepend=-1.0) != 0]]
+    point = [Mode.TRANSIT, Mode.APPROACH, Mode.PRESS, Mode.RETREAT]
+    home = [Mode.TRANSIT, Mode.LAND, Mode.LANDED]
+    assert order == [Mode.IDLE, Mode.TAKEOFF, *point, *point, *home]
+    start, end = flight.state[0], flight.state[-1]
+    np.testing.assert_allclose(end["p_WB"], start["p_WB"], atol=0.01)
+    assert np.linalg.norm(end["v_WB_W"]) < 1e-3
+
+
+def test_the_force_is_there_only_while_pressing(flown: Fly) -> None:
+    flight = flown(SHORT)
+    touching = flight.state["f_normal"] > 0.1
+    near = np.isin(flight.mode, [float(Mode.PRESS), float(Mode.RETREAT)])
+    assert not touching[~near].any()
+    assert flight.during(Mode.PRESS)["f_normal"].max() > 1.5
+    # The retreat leaves the wall at once.
+    for end in np.flatnonzero(np.diff((flight.mode == float(Mode.RETREAT)).astype(int)) == -1):
+        assert flight.state["f_normal"][end] == 0.0
+    assert flight.state["f_body"].max() == 0.0
+
+
+def test_the_logged_truth_is_consistent_with_itself(flown: Fly) -> None:
+    """Positions are the integral of velocities, velocities of accelerations; in free flight."""
+    state = flown(SHORT).state
+    dt = np.diff(state["t_s"])[:, None]
+    assert np.ptp(dt) < 1e-9
+    flying = (flown(SHORT).mode == float(Mode.TRANSIT))[1:]
+    mean_v = 0.5 * (state["v_WB_W"][1:] + state["v_WB_W"][:-1])
+    np.testing.assert_allclose((np.diff(state["p_WB"], axis=0) / dt - mean_v)[flying], 0, atol=2e-3)
+
+
+ABORTED = "the flight was aborted"
+
+
+def fault(flown: Fly, sensor: str, kind: str, mode: Mode) -> tuple[Flown, float]:
+    """The short flight with a sensor that fails 0.6 s into a mode, and when that is."""
+    short = flown(SHORT)
+    begun = float(short.state["t_s"][np.argmax(short.mode == float(mode))])
+    start_s = round(begun + 0.6, 3)
+    truth = f"faults: [{{sensor: {sensor}, fault: {kind}, start_s: {start_s}}}]\n"
+    flight = flown(Scenario(f"{sensor}-{kind}-{mode.name.lower()}", truth))
+    return flight, start_s
+
+
+def assert_safe_hover(flight: Flown, drift_m: float) -> None:
+    """At rest for the last three seconds, in the air, with no blow on the body ever."""
+    assert flight.outcome.result.status == "aborted"
+    assert not flight.outcome.result.passed
+    assert set(flight.reasons) == {ABORTED}
+    assert flight.state["f_body"].max() == 0.0
+    assert flight.mode[-1] == float(Mode.HOVER)
+    hover = flight.state[flight.state["t_s"] > flight.state["t_s"][-1] - 3.0]
+    assert np.ptp(hover["p_WB"], axis=0).max() < drift_m
+    assert hover["p_WB"][:, 2].min() > 0.5
+    speed = np.linalg.norm(hover["v_WB_W"][-100:], axis=1)
+    assert speed.max() < 0.05
+
+
+@pytest.mark.parametrize(
+    ("kind", "mode"), [("off", Mode.TRANSIT), ("nan", Mode.APPROACH), ("nan", Mode.PRESS)]
+)
+def test_a_blind_camera_ends_in_a_hover_at_the_standoff(flown: Fly, kind: str, mode: Mode) -> None:
+    flight, start_s = fault(flown, "tof", kind, mode)
+    assert_safe_hover(flight, 0.02)
+    assert "surface not seen" in flight.outcome.result.status_reason
+    # Nobody needs the camera before the approach. Then half a second without a surface and a
+    # second and a half of patience.
+    needed_s = flight.state["t_s"][np.argmax(flight.mode == float(Mode.APPROACH))]
+    assert 1.4 < flight.abort_s() - max(start_s, needed_s) < 2.2
+    assert WALL_X - flight.state["p_WT"][-1][0] == pytest.approx(0.25, abs=0.02)
+    assert flight.state["f_normal"][-300:].max() == 0.0
+
+
+@pytest.mark.parametrize(("kind", "mode"), [("off", Mode.TRANSIT), ("nan", Mode.APPROACH)])
+def test_a_lost_tracker_ends_in_a_hover(flown: Fly, kind: str, mode: Mode) -> None:
+    flight, start_s = fault(flown, "pose", kind, mode)
+    assert_safe_hover(flight, 0.10)  # three seconds on inertial sensors alone
+    assert "pose" in flight.outcome.result.status_reason
+    assert 0.25 < flight.abort_s() - start_s < 0.35
+    assert flight.state["f_normal"].max() == 0.0
+
+
+@pytest.mark.parametrize("kind", ["off", "nan"])
+def test_without_a_first_pose_it_does_not_take_off(flown: Fly, kind: str) -> None:
+    flight = flown(Scenario(f"no-pose-{kind}", f"faults: [{{sensor: pose, fault: {kind}}}]\n"))
+    assert flight.outcome.result.status == "aborted"
+    assert "no pose" in flight.outcome.result.status_reason
+    assert flight.outcome.ending.flight_s == 0.0
+    assert not any(point.valid for point in flight.outcome.result.points)
+
+
+@pytest.mark.parametrize("kind", ["off", "nan"])
+def test_a_broken_probe_gives_no_reading(flown: Fly, kind: str) -> None:
+    """The flight goes on: touching is the impedance's business, not the probe's."""
+    scenario = Scenario(f"probe-{kind}", f"faults: [{{sensor: probe, fault: {kind}}}]\n")
+    flight = flown(scenario)
+    assert flight.outcome.result.status == "completed"
+    assert flight.state["f_normal"].max() > 1.5  # it did press
+    for point in flight.outcome.result.points:
+        assert not point.valid
+        assert point.reason
+        assert point.potential_mv is None
+        assert point.corrosion is None
+
+
+def test_pulled_away_from_the_wall_no_point_counts(flown: Fly) -> None:
+    """A constant 3 N against a press of 1.8 N: nine points, each invalid for its force."""
+    pull = "disturbances: [{kind: constant, frame: world, force_n: [-3, 0, 0], start_s: 4}]\n"
+    flight = flown(Scenario("pulled", pull, tasks=""))
+    assert flight.outcome.result.status == "completed"
+    assert len(flight.reasons) == 9
+    for point in flight.outcome.result.points:
+        assert not point.valid
+        assert point.reason.startswith("force")
+        assert point.potential_mv is None
+    assert flight.state["f_body"].max() == 0.0
+
+
+def test_a_missing_wall_is_given_up_in_a_safe_hover(flown: Fly) -> None:
+    flight = flown(Scenario("no-wall", "structure: {wall: {absent: true}}\n"))
+    assert_safe_hover(flight, 0.02)
+    assert flight.state["p_WT"][:, 0].max() < WALL_X - 0.2  # it never went in blindly
+
+
+def bytes_of(flight: Flown) -> tuple[bytes, bytes]:
+    folder = flight.outcome.folder
+    return (folder / "flight.mcap").read_bytes(), (folder / "metrics.json").read_bytes()
+
+
+def test_two_processes_write_the_same_bytes(flown: Fly, campaign: Path) -> None:
+    here = flown(SHORT)
+    out = campaign / "reports" / "elsewhere"
+    code = (
+        "import sys; from pathlib import Path; from inspect_cli.commands.fly import fly;"
+        "fly(Path(sys.argv[1]), seed=1, out=Path(sys.argv[2]))"
+    )
+    mission = campaign / "missions" / f"{SHORT.name}.yaml"
+    subprocess.run([sys.executable, "-c", code, str(mission), str(out)], check=True, timeout=120)
+    log, metrics = bytes_of(here)
+    assert (out / "metrics.json").read_bytes() == metrics
+    assert (out / "flight.mcap").read_bytes() == log
+
+
+def test_another_seed_is_another_noise_with_the_same_verdicts(flown: Fly) -> None:
+    one, two = flown(SHORT), flown(Scenario("short", seed=2))
+    for topic in ("/sensor/imu", "/sensor/probe", "/estimate"):
+        a, b = one.log.channels[topic], two.log.channels[topic]
+        rows = min(len(a), len(b))
+        assert (a[:rows] != b[:rows]).mean() > 0.99, topic
+    verdicts = [
+        [(point.valid, point.reason, point.astm_class, point.corrosion) for point in f.points]
+        for f in (one.outcome.result, two.outcome.result)
+    ]
+    assert verdicts[0] == verdicts[1]
+    numbers = [
+        [point.potential_mv for point in flight.outcome.result.points] for flight in (one, two)
+    ]
+    assert numbers[0] != numbers[1]
+    assert numbers[0] == pytest.approx(numbers[1], abs=10.0)
+
+
+class Poison:
+    """Keeps the true records, and hands out NaN in their place to whoever is no sensor."""
+
+    def __init__(self) -> None:
+        self.kept: dict[int, Array] = {}
+        self.controls = 0
+
+    def spoil(self, record: Record) -> None:
+        numbers = record.array.view(np.float64)
+        self.kept[id(record)] = numbers.copy()
+        numbers[:] = np.nan
+
+    def restore(self, record: Record) -> None:
+        record.array.view(np.float64)[:] = self.kept[id(record)]
+
+    def around(self, function: Callable[..., object], *places: int) -> Callable[..., object]:
+        """The function with the truth in its arguments at ``places``, and NaN after it."""
+
+        def with_truth(*arguments: object) -> object:
+            records = [arguments[place] for place in places]
+            for record in records:
+                assert isinstance(record, Record)
+                self.restore(record)
+            result = function(*arguments)
+            for record in records:
+                assert isinstance(record, Record)
+                self.spoil(record)
+            return result
+
+        return with_truth
+
+
+def test_poisoned_truth_changes_nothing_downstream_of_the_sensors(
+    flown: Fly, campaign: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """State and contact are NaN but for sensors and log; the log is the same, to the byte."""
+    clean = bytes_of(flown(SHORT))
+    poison, observe, update = Poison(), Plant.observe, ContactTruth.update
+    control, place = ImpedanceStack.control, Plant.place
+    plants: list[Plant] = []
+
+    def observe_and_spoil(plant: Plant, t_s: float) -> State:
+        state = observe(plant, t_s)
+        poison.spoil(state)
+        return state
+
+    def place_and_keep(plant: Plant, posture: Posture) -> None:
+        plants.append(plant)
+        place(plant, posture)
+
+    def update_and_spoil(truth: ContactTruth, state: State) -> Record:
+        poison.restore(state)
+        contact = update(truth, state)
+        poison.spoil(contact)
+        poison.spoil(state)
+        return contact
+
+    def control_without_truth(*arguments: object) -> None:
+        assert np.isnan(plants[0].state.array.view(np.float64)).all()
+        poison.controls += 1
+        control(*arguments)
+
+    for name in ("sample_imu", "sample_pose", "sample_tof"):
+        monkeypatch.setattr(Instruments, name, poison.around(getattr(Instruments, name), 1))
+    monkeypatch.setattr(Instruments, "sample_probe", poison.around(Instruments.sample_probe, 1, 2))
+    monkeypatch.setattr(Recorder, "rows", poison.around(Recorder.rows, 2, 3))
+    monkeypatch.setattr(Plant, "observe", observe_and_spoil)
+    monkeypatch.setattr(Plant, "place", place_and_keep)
+    monkeypatch.setattr(ContactTruth, "update", update_and_spoil)
+    monkeypatch.setattr(ImpedanceStack, "control", control_without_truth)
+    poisoned = SHORT.fly(campaign, "poisoned")
+    assert poison.controls > 10_000
+    assert bytes_of(poisoned) == clean
