@@ -1,0 +1,306 @@
+"""The executive walks a scripted flight: each mode's end, and an abort from each mode."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from script import (
+    APPROACH_MPS,
+    PRESS_M,
+    PRESS_MPS,
+    RETREAT_MPS,
+    STANDOFF_M,
+    TICK_S,
+    TIME_LIMIT_S,
+    TRANSIT_MPS,
+    Script,
+)
+
+from inspect_cli.autonomy.executive import (
+    BEFORE_CONTACT_M,
+    PAUSE_S,
+    SAFE_HOVER_S,
+    SETTLE_S,
+    TOUCHDOWN_M,
+)
+from inspect_cli.records import InvalidReason, Mode, SurfaceEstimate
+
+WATCHED = [Mode.TAKEOFF, Mode.TRANSIT, Mode.APPROACH, Mode.PRESS, Mode.RETREAT, Mode.LAND]
+NEAR = [Mode.APPROACH, Mode.PRESS, Mode.RETREAT]
+SLACK_S = 2.5 * TICK_S
+
+
+@pytest.fixture
+def script() -> Script:
+    return Script()
+
+
+def test_a_whole_flight(script: Script) -> None:
+    script.run_until(lambda: script.executive.finished)
+    point = [Mode.TRANSIT, Mode.APPROACH, Mode.PRESS, Mode.RETREAT]
+    assert script.modes == [
+        (Mode.IDLE, -1),
+        (Mode.TAKEOFF, -1),
+        *[(mode, 0) for mode in point],
+        *[(mode, 1) for mode in point],
+        (Mode.TRANSIT, -1),
+        (Mode.LAND, -1),
+        (Mode.LANDED, -1),
+    ]
+    assert (script.executive.status, script.executive.reason) == ("completed", "")
+    assert [(r.target, r.valid) for r in script.executive.readings] == [(0.0, 1.0), (1.0, 1.0)]
+    asked = [
+        ("approach A{}", -BEFORE_CONTACT_M, APPROACH_MPS),
+        ("approach A{}", PRESS_M, PRESS_MPS),
+        ("approach A{}", -STANDOFF_M, RETREAT_MPS),
+    ]
+    fly = ("go_to", 1.0, TRANSIT_MPS)
+    expected = [fly]
+    for label in (1, 2):
+        expected += [fly, *[(what.format(label), *rest) for what, *rest in asked]]
+    expected += [fly, ("go_to", 0.2, TRANSIT_MPS), ("go_to", 0.2 - TOUCHDOWN_M, TRANSIT_MPS)]
+    assert [call[0] for call in script.guidance.calls] == [call[0] for call in expected]
+    np.testing.assert_allclose(
+        [call[1:] for call in script.guidance.calls], [call[1:] for call in expected]
+    )
+
+
+def test_it_settles_on_the_ground_with_its_motors_off(script: Script) -> None:
+    took = script.run_to(Mode.TAKEOFF)
+    assert took == pytest.approx(SETTLE_S, abs=SLACK_S)
+    idle = Script()
+    idle.step()
+    assert not idle.executive.flying
+    assert script.executive.flying
+
+
+@pytest.mark.parametrize("mode", [Mode.TAKEOFF, Mode.TRANSIT, Mode.RETREAT, Mode.LAND])
+def test_a_stretch_ends_a_pause_after_its_arrival(script: Script, mode: Mode) -> None:
+    script.run_to(mode)
+    took = script.run_until(lambda: script.mode != mode)
+    assert took == pytest.approx(script.guidance.takes_s + PAUSE_S, abs=SLACK_S)
+
+
+def test_an_arrival_that_is_put_off_starts_the_pause_anew(script: Script) -> None:
+    script.run_to(Mode.TRANSIT)
+    script.run_until(lambda: script.guidance.arrived(script.t_s))
+    script.run(0.5 * PAUSE_S)
+    script.guidance.arrival_s = script.t_s + 3.0  # a correction
+    took = script.run_until(lambda: script.mode != Mode.TRANSIT)
+    assert took == pytest.approx(3.0 + PAUSE_S, abs=SLACK_S + TICK_S)
+
+
+def test_an_approach_waits_for_a_surface_that_is_seen_from_the_standoff(script: Script) -> None:
+    script.surfaces = False
+    script.run_to(Mode.APPROACH)
+    script.run(1.0)
+    assert script.guidance.calls[-1][0] == "go_to"  # it has not moved
+    assert not script.executive.watches_surface
+    script.surfaces = True
+    script.run(0.1)
+    assert script.guidance.calls[-1][0] == "approach A1"
+    assert script.executive.watches_surface
+    took = script.run_to(Mode.PRESS)
+    assert took == pytest.approx(script.guidance.takes_s + PAUSE_S, abs=0.1 + SLACK_S)
+
+
+def test_an_invalid_surface_is_not_seen(script: Script) -> None:
+    script.surfaces = False
+    script.run_to(Mode.APPROACH)
+    script.run(0.5)
+    blind = SurfaceEstimate.create()
+    blind.t_s = script.t_s
+    script.executive.saw_surface(blind)
+    script.run(0.1)
+    assert not script.executive.watches_surface
+
+
+def test_a_press_ends_when_the_judge_has_decided_and_not_before(script: Script) -> None:
+    script.run_to(Mode.PRESS)
+    script.judges[-1].takes_s = 7.0
+    took = script.run_to(Mode.RETREAT)
+    assert took == pytest.approx(7.0, abs=SLACK_S)
+    (reading,) = script.executive.readings
+    assert (reading.target, reading.t_s) == (0.0, pytest.approx(script.t_s, abs=SLACK_S))
+
+
+def test_the_probe_is_heard_only_while_pressing(script: Script) -> None:
+    script.run_to(Mode.PRESS)
+    script.run_to(Mode.RETREAT)
+    (judge,) = script.judges
+    assert judge.fed == pytest.approx(judge.takes_s / TICK_S, abs=3)
+    fed = judge.fed
+    script.run(1.0)
+    assert judge.fed == fed
+
+
+def test_surfaces_steer_only_near_them(script: Script) -> None:
+    steered = set()
+    while not script.executive.finished:
+        script.step()
+        if script.executive.watches_surface:
+            steered.add(script.mode)
+    assert steered == set(NEAR)
+
+
+def test_it_leans_on_the_ground_before_its_motors_stop(script: Script) -> None:
+    script.run_to(Mode.LANDED)
+    assert script.executive.flying
+    took = script.run_until(lambda: not script.executive.flying)
+    assert took == pytest.approx(script.guidance.takes_s + PAUSE_S, abs=SLACK_S)
+    took = script.run_until(lambda: script.executive.finished)
+    assert took == pytest.approx(SETTLE_S, abs=SLACK_S)
+
+
+def test_the_reference_carries_mode_and_target(script: Script) -> None:
+    reference = script.guidance.reference
+    while not script.executive.finished:
+        script.step()
+        assert reference.mode == float(script.executive.mode)
+        assert reference.target == float(script.executive.target)
+
+
+def test_every_mode_is_an_event(script: Script) -> None:
+    script.run_until(lambda: script.executive.finished)
+    texts = [event.text for event in script.executive.events]
+    assert texts[:3] == ["takeoff", "transit, point A1", "approach, point A1"]
+    assert texts[-1] == "landed"
+    assert {event.level for event in script.executive.events} == {"info"}
+    times = [event.t_s for event in script.executive.events]
+    assert times == sorted(times)
+
+
+def aborted(script: Script) -> None:
+    """What every abort owes."""
+    executive = script.executive
+    assert executive.status == "aborted"
+    assert script.mode == Mode.HOVER
+    assert executive.target == -1
+    assert executive.flying
+    assert not executive.watches_surface
+    (error,) = [event for event in executive.events if event.level == "error"]
+    assert executive.reason in error.text
+    # Every point has exactly one reading, and those not judged before are invalid.
+    assert sorted(reading.target for reading in executive.readings) == [0.0, 1.0]
+    for reading in executive.readings:
+        if reading.valid:
+            continue
+        assert reading.reason == float(InvalidReason.ABORTED)
+        assert np.isnan([reading.potential, reading.resistance]).all()
+        np.testing.assert_array_equal(reading.p_WT, [2.0, reading.target, 1.0])
+
+
+@pytest.mark.parametrize("mode", WATCHED)
+def test_a_lost_pose_aborts_from_every_mode_and_holds(script: Script, mode: Mode) -> None:
+    script.run_to(mode)
+    script.poses = False
+    took = script.run_to(Mode.HOVER)
+    assert took == pytest.approx(0.25, abs=SLACK_S)
+    aborted(script)
+    assert "pose" in script.executive.reason
+    assert script.guidance.calls[-1][0] == "hold"
+
+
+@pytest.mark.parametrize("mode", WATCHED)
+def test_a_large_error_retreats_near_the_surface_and_holds_elsewhere(
+    script: Script, mode: Mode
+) -> None:
+    script.run_to(mode)
+    if mode == Mode.APPROACH:
+        script.run_until(lambda: script.executive.watches_surface)
+    script.estimate.p_WB[:] = [0.7, 0.0, 0.0]
+    took = script.run_to(Mode.HOVER)
+    assert took == pytest.approx(0.5, abs=SLACK_S)
+    aborted(script)
+    what, depth, _ = script.guidance.calls[-1]
+    expected = ("approach A1", -STANDOFF_M) if mode in NEAR else ("hold", 0.0)
+    assert (what, depth) == expected
+
+
+@pytest.mark.parametrize("mode", [Mode.APPROACH, Mode.PRESS])
+def test_a_surface_out_of_sight_near_it_retreats(script: Script, mode: Mode) -> None:
+    script.run_to(mode)
+    script.guidance.takes_s = 9.0
+    for judge in script.judges:
+        judge.takes_s = 9.0
+    script.surfaces = False
+    took = script.run_to(Mode.HOVER)
+    assert took == pytest.approx(0.5 + 1.5, abs=SLACK_S)
+    aborted(script)
+    speed = APPROACH_MPS if mode == Mode.APPROACH else PRESS_MPS
+    assert script.guidance.calls[-1] == ("approach A1", -STANDOFF_M, speed)
+
+
+def test_in_transit_the_surface_may_be_out_of_sight(script: Script) -> None:
+    script.run_to(Mode.TRANSIT)
+    script.guidance.arrival_s = script.t_s + 10.0
+    script.surfaces = False
+    script.run(9.0)
+    assert script.mode == Mode.TRANSIT
+
+
+def test_a_missing_surface_is_given_up_at_the_standoff(script: Script) -> None:
+    script.surfaces = False
+    script.run_to(Mode.HOVER)
+    aborted(script)
+    assert script.modes[-2] == (Mode.APPROACH, 0)
+    went = [call for call in script.guidance.calls if call[0].startswith("approach")]
+    assert went == [("approach A1", -STANDOFF_M, APPROACH_MPS)]
+
+
+def test_a_reading_that_was_made_survives_the_abort(script: Script) -> None:
+    script.run_to(Mode.TRANSIT, 1)
+    script.poses = False
+    script.run_to(Mode.HOVER)
+    aborted(script)
+    assert [(r.target, r.valid) for r in script.executive.readings] == [(0.0, 1.0), (1.0, 0.0)]
+
+
+def test_after_an_abort_it_hovers_at_rest_and_ends(script: Script) -> None:
+    script.run_to(Mode.PRESS)
+    script.guidance.takes_s = 5.0  # the way back to the standoff
+    script.estimate.p_WB[:] = [0.7, 0.0, 0.0]
+    script.run_to(Mode.HOVER)
+    took = script.run_until(lambda: script.executive.finished)
+    assert took == pytest.approx(5.0 + SAFE_HOVER_S, abs=SLACK_S)
+    assert script.modes[-1] == (Mode.HOVER, -1)
+
+
+def test_a_second_failure_does_not_abort_again(script: Script) -> None:
+    script.run_to(Mode.PRESS)
+    script.poses = False
+    script.run_to(Mode.HOVER)
+    script.estimate.p_WB[:] = np.nan
+    script.run(2.0)
+    aborted(script)
+
+
+def test_a_nan_estimate_aborts(script: Script) -> None:
+    script.run_to(Mode.TRANSIT)
+    script.estimate.p_WB[:] = np.nan
+    script.run_to(Mode.HOVER)
+    aborted(script)
+
+
+def test_a_flight_that_takes_far_too_long_is_given_up(script: Script) -> None:
+    script.run_to(Mode.TRANSIT)
+    script.guidance.arrival_s = 1e9
+    script.run_to(Mode.HOVER)
+    assert script.t_s == pytest.approx(TIME_LIMIT_S, abs=SLACK_S)
+    aborted(script)
+    assert "longer" in script.executive.reason
+    assert script.guidance.calls[-1][0] == "hold"
+
+
+def test_on_the_ground_there_is_no_overtime(script: Script) -> None:
+    script.run_to(Mode.LANDED)
+    script.guidance.arrival_s = TIME_LIMIT_S + 5.0
+    script.run_until(lambda: script.executive.finished)
+    assert script.executive.status == "completed"
+
+
+def test_somebody_outside_may_end_the_run(script: Script) -> None:
+    script.run_to(Mode.PRESS)
+    script.executive.give_up("diverged", "the physics")
+    assert script.executive.finished
+    assert (script.executive.status, script.executive.reason) == ("diverged", "the physics")

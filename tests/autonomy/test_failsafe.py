@@ -1,0 +1,150 @@
+"""The table of failsafes: limits, modes, patience and severity; time is an argument."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from scipy.spatial.transform import Rotation
+
+from inspect_cli.autonomy.failsafe import (
+    FAILSAFES,
+    FLYING,
+    NEAR_SURFACE,
+    Action,
+    Failsafe,
+    FlightInputs,
+    Watch,
+    tracking_errors,
+)
+from inspect_cli.records import Estimate, Mode, Reference
+
+LENGTHS = {"n_rotors": 0, "n_joints": 0, "n_arm": 0}
+ROWS = {row.name: row for row in FAILSAFES}
+POSE, SURFACE = "pose measurements lost", "surface not seen by the depth camera"
+POSITION, ATTITUDE = "position error above 0.6 m", "attitude error above 0.6 rad"
+
+
+def inputs(t_s: float = 10.0, **values: float) -> FlightInputs:
+    """All is well at ``t_s`` but for what is given."""
+    good = FlightInputs(t_s, Estimate.create(), Reference.create(LENGTHS), t_s, t_s)
+    for name, value in values.items():
+        setattr(good, name, value)
+    return good
+
+
+def test_the_table_names_what_these_tests_know() -> None:
+    assert set(ROWS) == {POSE, SURFACE, POSITION, ATTITUDE}
+
+
+@pytest.mark.parametrize(
+    ("name", "field", "still_good", "bad"),
+    [
+        (POSE, "pose_heard_s", 9.76, 9.74),
+        (SURFACE, "surface_seen_s", 9.51, 9.49),
+        (POSITION, "position_error_m", 0.59, 0.61),
+        (ATTITUDE, "attitude_error_rad", 0.59, 0.61),
+    ],
+)
+def test_each_row_has_its_limit_and_takes_nan_for_a_violation(
+    name: str, field: str, still_good: float, bad: float
+) -> None:
+    assert not ROWS[name].violated(inputs())
+    assert not ROWS[name].violated(inputs(**{field: still_good}))
+    assert ROWS[name].violated(inputs(**{field: bad}))
+    assert ROWS[name].violated(inputs(**{field: np.nan}))
+
+
+@pytest.mark.parametrize("mode", list(Mode))
+def test_each_row_watches_its_modes(mode: Mode) -> None:
+    everything_bad = inputs(
+        pose_heard_s=0.0, surface_seen_s=0.0, position_error_m=9.0, attitude_error_rad=3.0
+    )
+    due = set()
+    for row in FAILSAFES:
+        watch = Watch([row])
+        watch.check(mode, everything_bad)
+        everything_bad.t_s = 20.0
+        if watch.check(mode, everything_bad)[0] != Action.CONTINUE:
+            due.add(row.name)
+        everything_bad.t_s = 10.0
+    expected = {POSE, POSITION, ATTITUDE} if mode in FLYING else set()
+    expected |= {SURFACE} if mode in NEAR_SURFACE else set()
+    assert due == expected
+
+
+def test_on_the_ground_and_after_an_abort_nothing_is_watched() -> None:
+    assert not FLYING & {Mode.IDLE, Mode.LANDED, Mode.HOVER}
+
+
+def row(name: str, action: Action, patience_s: float = 0.0, error_m: float = 1.0) -> Failsafe:
+    return Failsafe(name, FLYING, lambda i: i.position_error_m > error_m, patience_s, action)
+
+
+@pytest.mark.parametrize("order", [1, -1])
+def test_the_severest_action_wins_wherever_it_stands(order: int) -> None:
+    table = [row("mild", Action.RETREAT), row("severe", Action.HOVER)][::order]
+    bad = inputs(position_error_m=2.0)
+    assert Watch(table).check(Mode.TRANSIT, bad) == (Action.HOVER, "severe")
+
+
+def test_of_equals_the_first_gives_the_reason() -> None:
+    table = [row("first", Action.RETREAT), row("second", Action.RETREAT)]
+    bad = inputs(position_error_m=2.0)
+    assert Watch(table).check(Mode.TRANSIT, bad) == (Action.RETREAT, "first")
+
+
+def test_severity_is_ordered() -> None:
+    assert Action.CONTINUE < Action.RETREAT < Action.HOVER
+
+
+def test_a_violation_must_last() -> None:
+    watch = Watch([row("error", Action.HOVER, patience_s=0.5)])
+    for t_s, expected in ((1.0, 0), (1.48, 0), (1.5, 2), (1.6, 2)):
+        action, reason = watch.check(Mode.TRANSIT, inputs(t_s, position_error_m=2.0))
+        assert action == expected
+        assert reason == ("error" if expected else "")
+
+
+def test_an_interruption_starts_the_patience_anew() -> None:
+    watch = Watch([row("error", Action.HOVER, patience_s=0.5)])
+    bad = {"position_error_m": 2.0}
+    assert watch.check(Mode.TRANSIT, inputs(1.0, **bad))[0] == Action.CONTINUE
+    assert watch.check(Mode.TRANSIT, inputs(1.4))[0] == Action.CONTINUE  # well again
+    assert watch.check(Mode.TRANSIT, inputs(1.5, **bad))[0] == Action.CONTINUE
+    assert watch.check(Mode.TRANSIT, inputs(1.99, **bad))[0] == Action.CONTINUE
+    assert watch.check(Mode.TRANSIT, inputs(2.0, **bad))[0] == Action.HOVER
+
+
+def test_a_mode_that_is_not_watched_starts_the_patience_anew() -> None:
+    near = Failsafe("near", NEAR_SURFACE, lambda i: True, 0.5, Action.RETREAT)
+    watch = Watch([near])
+    assert watch.check(Mode.PRESS, inputs(1.0))[0] == Action.CONTINUE
+    assert watch.check(Mode.RETREAT, inputs(1.4))[0] == Action.CONTINUE
+    assert watch.check(Mode.APPROACH, inputs(1.6))[0] == Action.CONTINUE
+    assert watch.check(Mode.APPROACH, inputs(2.1))[0] == Action.RETREAT
+
+
+def test_two_watches_keep_their_own_time() -> None:
+    table = [row("error", Action.HOVER, patience_s=0.5)]
+    first, second = Watch(table), Watch(table)
+    bad = {"position_error_m": 2.0}
+    first.check(Mode.TRANSIT, inputs(1.0, **bad))
+    assert first.check(Mode.TRANSIT, inputs(1.5, **bad))[0] == Action.HOVER
+    assert second.check(Mode.TRANSIT, inputs(1.5, **bad))[0] == Action.CONTINUE
+
+
+def test_tracking_errors_are_distance_and_angle() -> None:
+    rng = np.random.default_rng(1)
+    for _ in range(20):
+        estimate, reference = Estimate.create(), Reference.create(LENGTHS)
+        turns = [Rotation.random(rng=rng) for _ in range(2)]
+        for record, turn in zip((estimate, reference), turns, strict=True):
+            record.p_WB[:] = rng.normal(size=3)
+            record.q_WB[:] = turn.as_quat()[[3, 0, 1, 2]] * rng.choice([-1.0, 1.0])
+        distance, angle = tracking_errors(estimate.array, reference.array)
+        assert distance == pytest.approx(np.linalg.norm(estimate.p_WB - reference.p_WB))
+        assert angle == pytest.approx((turns[0].inv() * turns[1]).magnitude(), abs=1e-6)
+    same = inputs()
+    same.estimate.q_WB[0] = same.reference.q_WB[0] = 1.0
+    same.refresh(12.0)
+    assert (same.t_s, same.position_error_m, same.attitude_error_rad) == (12.0, 0.0, 0.0)
