@@ -8,8 +8,10 @@ from typing import Any, TypeAlias
 
 import numpy as np
 from mcap.opcode import Opcode
+from numpy.typing import NDArray
 
-from inspect_cli.log.layout import MESSAGE_HEAD, MessageLayout, Nanoseconds, nanoseconds
+from inspect_cli.compiled import kernel
+from inspect_cli.log.layout import MESSAGE_HEAD, Bytes, MessageLayout, Nanoseconds, nanoseconds
 from inspect_cli.log.mcap_file import Block
 from inspect_cli.spatial.types import Structured
 
@@ -70,8 +72,34 @@ class MessageQueue:
         return Block(self._channel_id, b"".join(records), times, offset)
 
 
-def fill_fields(messages: Structured, rows: Structured, time: Nanoseconds) -> None:
-    """Copy every field of the rows into the part of the messages that has its name."""
-    del time  # the row carries its own, exactly
-    for name in rows.dtype.names or ():
-        messages[name] = rows[name]
+class FieldCopy:
+    """Copies every field of rows into the part of the messages that has its name."""
+
+    def __init__(self, rows: np.dtype[Any], messages: np.dtype[Any]) -> None:
+        self._spans = np.array(
+            [
+                (_offset(rows, name), _offset(messages, name), rows[name].itemsize)
+                for name in rows.names or ()
+            ]
+        )
+
+    def __call__(self, messages: Structured, rows: Structured, time: Nanoseconds) -> None:
+        """Rows (n,) into messages (n,); a row carries its own time, exactly."""
+        source = rows.view(np.uint8).reshape(rows.size, rows.itemsize)
+        target = messages.view(np.uint8).reshape(messages.size, messages.itemsize)
+        copy_spans(source, target, self._spans)
+
+
+@kernel
+def copy_spans(source: Bytes, target: Bytes, spans: NDArray[np.int64]) -> None:
+    """Copy bytes (from, to, length) of each row of ``source`` (n, ·) into ``target`` (n, ·)."""
+    for row in range(source.shape[0]):
+        for k in range(spans.shape[0]):
+            start, end = spans[k, 0], spans[k, 1]
+            for j in range(spans[k, 2]):
+                target[row, end + j] = source[row, start + j]
+
+
+def _offset(dtype: np.dtype[Any], name: str) -> int:
+    assert dtype.fields is not None  # a structured dtype
+    return dtype.fields[name][1]

@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from pathlib import Path
 from types import TracebackType
-from typing import Self, get_args
+from typing import NamedTuple, Self, get_args
 
 import numpy as np
 from foxglove_schemas_protobuf.Log_pb2 import Log
@@ -21,12 +21,19 @@ from inspect_cli.errors import EnvironmentFault
 from inspect_cli.log import foxglove, layout
 from inspect_cli.log.mcap_file import McapFile
 from inspect_cli.log.names import EVENTS, OUTCOME, SCENE
-from inspect_cli.log.queues import MessageQueue, RowQueue, fill_fields
+from inspect_cli.log.queues import FieldCopy, MessageQueue, RowQueue
 from inspect_cli.log.scene import plan_scene
 from inspect_cli.records import Lengths, Record
 from inspect_cli.schema.plan import Plan
 from inspect_cli.schema.result import Status
 from inspect_cli.spatial.types import Points
+
+
+class Tap(NamedTuple):
+    """A record that is logged again and again: ``tap.queue(tap.row())`` copies one row."""
+
+    row: Callable[[], bytes]
+    queue: Callable[[bytes], None]
 
 
 class LogWriter:
@@ -46,7 +53,7 @@ class LogWriter:
         path: Path,
         records: Sequence[type[Record]],
         lengths: Lengths,
-        chunk_s: float = 0.4,
+        chunk_s: float = 0.48,
     ) -> None:
         self._path = path
         self._part = path.with_name(path.name + ".part")
@@ -65,6 +72,10 @@ class LogWriter:
     def log(self, record: Record) -> None:
         """Copy one row."""
         self._rows[type(record)].pending.append(record.array.tobytes())
+
+    def tap(self, record: Record) -> Tap:
+        """What ``log`` does with this one record, looked up once."""
+        return Tap(record.array.tobytes, self._rows[type(record)].pending.append)
 
     def pose(self, topic: str, t_s: float, p: ArrayLike, q: ArrayLike) -> None:
         """Log a pose in W for viewers: p (3,) m and unit quaternion q (4,) wxyz."""
@@ -141,7 +152,8 @@ class LogWriter:
         metadata = layout.channel_metadata(fields)
         channel_id = self._file.add_channel(record.topic, schema_id, metadata)
         rows = layout.rows_dtype(fields)
-        return RowQueue(channel_id, layout.record_layout(channel_id, fields), rows, fill_fields)
+        messages = layout.record_layout(channel_id, fields)
+        return RowQueue(channel_id, messages, rows, FieldCopy(rows, messages.dtype))
 
     def _pose_queue(self, topic: str) -> RowQueue:
         channel_id = self._foxglove_channel(topic, PoseInFrame)

@@ -84,7 +84,14 @@ class Flight:
 
         limit_s = 60.0 + 2.0 * plan.duration_s
         self.executive = Executive(plan, self.guidance, judge, self.stack.estimate, limit_s)
-        self.recorder = Recorder(log)
+        self.recorder = Recorder(
+            log,
+            self.plant.state,
+            self.contact.contact,
+            self.guidance.reference,
+            self.stack,
+            self.instruments,
+        )
         self.clock = Clock(
             rates.physics_hz,
             {
@@ -151,10 +158,8 @@ class Flight:
             plant.disturb(tick.t_s)
             plant.apply(stack.command)
         if "log" in due:
-            contact = self.contact.update(state)
-            self.recorder.rows(
-                tick.t_s, state, contact, self.guidance.reference, stack, self.instruments
-            )
+            self.contact.update(state)
+            self.recorder.rows(tick.t_s)
 
     def _correct_estimate(self, t_s: float, state: State) -> None:
         heard = self.instruments.sample_pose(state)

@@ -11,39 +11,50 @@ from inspect_cli.records import Record, Reference, State, SurfaceEstimate, TrueC
 from inspect_cli.simulation.instruments import Instruments
 from inspect_cli.spatial.types import Matrix, Points, Vector
 
+POSE_S = 0.1
+"""Between the poses that viewers draw."""
+CLOUD_S = 1.0
+"""Between the depth images that are kept."""
+
 
 class Recorder:
     """Writes the rows of one flight and keeps the wall-clock time that takes."""
 
-    def __init__(self, log: LogWriter) -> None:
-        self._log = log
-        self._next_pose_s = 0.0
-        self._next_cloud_s = 0.0
-        self.wall_s = 0.0
-        """Time spent on the log."""
-
-    def rows(
+    def __init__(
         self,
-        t_s: float,
+        log: LogWriter,
         state: State,
         contact: TrueContact,
         reference: Reference,
         stack: FlightStack,
         instruments: Instruments,
     ) -> None:
+        self._log = log
+        self._computed = (reference, stack.estimate, stack.command)
+        continuous = (state, contact, *self._computed, instruments.imu.measurement)
+        self._taps = [log.tap(record) for record in continuous]
+        self._poses = {
+            "/pose/estimate": (stack.estimate.p_WB, stack.estimate.q_WB),
+            "/pose/reference": (reference.p_WB, reference.q_WB),
+            "/truth/pose": (state.p_WB, state.q_WB),
+        }
+        self._next_pose_s = 0.0
+        self._next_cloud_s = 0.0
+        self.wall_s = 0.0
+        """Time spent on the log."""
+
+    def rows(self, t_s: float) -> None:
         """Log one row of every continuous channel, all with the same time."""
         begun = perf_counter()
-        log = self._log
-        for record in (state, contact, reference, stack.estimate, stack.command):
+        for record in self._computed:
             record.t_s = t_s
-            log.log(record)
-        log.log(instruments.imu.measurement)
+        for row, queue in self._taps:
+            queue(row())
         if t_s >= self._next_pose_s:
-            self._next_pose_s += 0.1
-            log.pose("/pose/estimate", t_s, stack.estimate.p_WB, stack.estimate.q_WB)
-            log.pose("/pose/reference", t_s, reference.p_WB, reference.q_WB)
-            log.pose("/truth/pose", t_s, state.p_WB, state.q_WB)
-        log.flush_due(t_s)
+            self._next_pose_s += POSE_S
+            for topic, (p, q) in self._poses.items():
+                self._log.pose(topic, t_s, p, q)
+        self._log.flush_due(t_s)
         self.wall_s += perf_counter() - begun
 
     def row(self, record: Record) -> None:
@@ -59,7 +70,7 @@ class Recorder:
         begun = perf_counter()
         self._log.log(surface)
         if surface.t_s >= self._next_cloud_s:
-            self._next_cloud_s += 1.0
+            self._next_cloud_s += CLOUD_S
             self._log.point_cloud("/tof/points", surface.t_s, p_WD + points_D @ R_WD.T)
         self.wall_s += perf_counter() - begun
 
