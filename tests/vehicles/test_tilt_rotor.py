@@ -40,6 +40,9 @@ def summed(platform: TiltRotorPlatform) -> tuple[float, Array, Array]:
 @pytest.mark.parametrize("pitch_deg", [0.0, 90.0, 150.0])
 def test_the_nominal_body_is_the_sum_of_the_bodies(pitched: Pitched, pitch_deg: float) -> None:
     platform = pitched(pitch_deg)
+    # Off the plane of symmetry too, where a swapped or turned component shows.
+    core = platform.core.model_copy(update={"com_m": (0.03, -0.05, 0.02)})
+    platform = platform.model_copy(update={"core": core})
     body = nominal_body(build_spec(platform))
     mass, com, inertia = summed(platform)
     assert body.mass_kg == pytest.approx(mass, rel=1e-12)
