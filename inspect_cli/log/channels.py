@@ -34,3 +34,18 @@ def channel_table(records: Sequence[type[Record]] = CORE_RECORDS) -> list[Channe
         for record in records
         for field in record.fields()
     ]
+
+
+def channel_markdown(records: Sequence[type[Record]] = CORE_RECORDS) -> str:
+    """The table as CONTRIBUTING shows it: one line per topic."""
+    lines = ["| topic | fields (shape, unit, frame) |", "|---|---|"]
+    for record in records:
+        rows = [row for row in channel_table([record]) if row.field != "t_s"]
+        lines.append(f"| `{record.topic}` | {'; '.join(map(_in_brief, rows))} |")
+    return "\n".join(lines) + "\n"
+
+
+def _in_brief(row: ChannelRow) -> str:
+    shape = "" if row.shape == "scalar" else row.shape
+    traits = ", ".join(trait for trait in (shape, row.unit, row.frame) if trait)
+    return f"`{row.field}` ({traits})"

@@ -23,12 +23,17 @@ class Strict(BaseModel):
     )
 
 
+UNIT_TOLERANCE = 1e-12
+
+
 def _unit_length(value: tuple[float, float, float]) -> tuple[float, float, float]:
     norm = math.hypot(*value)
     if norm < 1e-9:
         raise ValueError("a direction must not be zero")
     if math.isinf(norm):
         raise ValueError("a direction must be of finite length")
+    if abs(norm - 1.0) < UNIT_TOLERANCE:
+        return value  # what was written out comes back to the last digit
     return (value[0] / norm, value[1] / norm, value[2] / norm)
 
 

@@ -6,6 +6,7 @@ import re
 from pathlib import Path
 
 from inspect_cli.cli import app
+from inspect_cli.log.channels import channel_markdown
 
 
 def first_cells(file: Path, heading: str) -> list[str]:
@@ -28,3 +29,7 @@ def test_contributing_lists_every_floor(root: Path) -> None:
     there = {f"{folder.parent.name}/" for folder in package.glob("*/__init__.py")}
     there |= {file.name for file in package.glob("*.py") if not file.name.startswith("__")}
     assert named == there
+
+
+def test_contributing_lists_every_channel(root: Path) -> None:
+    assert channel_markdown() in (root / "CONTRIBUTING.md").read_text(encoding="utf-8")
