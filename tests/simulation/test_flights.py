@@ -11,7 +11,6 @@ import numpy as np
 import pytest
 from scenarios import Array, Flown, Scenario
 
-from inspect_cli.interfaces import Posture
 from inspect_cli.records import Mode, Record, State
 from inspect_cli.simulation.instruments import Instruments
 from inspect_cli.simulation.plant import Plant
@@ -195,29 +194,25 @@ class Poison:
     """Keeps the true records, and hands out NaN in their place to whoever is no sensor."""
 
     def __init__(self) -> None:
-        self.kept: dict[int, Array] = {}
+        self.hidden: dict[int, tuple[Array, Array]] = {}
+        """The numbers that everybody sees, and those that are so."""
         self.controls = 0
 
     def spoil(self, record: Record) -> None:
         numbers = record.array.view(np.float64)
-        self.kept[id(record)] = numbers.copy()
+        self.hidden[id(record)] = (numbers, numbers.copy())
         numbers[:] = np.nan
 
-    def restore(self, record: Record) -> None:
-        record.array.view(np.float64)[:] = self.kept[id(record)]
-
-    def around(self, function: Callable[..., object], *places: int) -> Callable[..., object]:
-        """The function with the truth in its arguments at ``places``, and NaN after it."""
+    def antidote(self, function: Callable[..., object]) -> Callable[..., object]:
+        """The function, which sees the truth as long as it runs."""
 
         def with_truth(*arguments: object) -> object:
-            records = [arguments[place] for place in places]
-            for record in records:
-                assert isinstance(record, Record)
-                self.restore(record)
+            for numbers, truth in self.hidden.values():
+                numbers[:] = truth
             result = function(*arguments)
-            for record in records:
-                assert isinstance(record, Record)
-                self.spoil(record)
+            for numbers, truth in self.hidden.values():
+                truth[:] = numbers
+                numbers[:] = np.nan
             return result
 
         return with_truth
@@ -229,36 +224,30 @@ def test_poisoned_truth_changes_nothing_downstream_of_the_sensors(
     """State and contact are NaN but for sensors and log; the log is the same, to the byte."""
     clean = bytes_of(flown(SHORT))
     poison, observe, update = Poison(), Plant.observe, ContactTruth.update
-    control, place = ImpedanceStack.control, Plant.place
-    plants: list[Plant] = []
+    control = ImpedanceStack.control
 
     def observe_and_spoil(plant: Plant, t_s: float) -> State:
         state = observe(plant, t_s)
         poison.spoil(state)
         return state
 
-    def place_and_keep(plant: Plant, posture: Posture) -> None:
-        plants.append(plant)
-        place(plant, posture)
-
     def update_and_spoil(truth: ContactTruth, state: State) -> Record:
-        poison.restore(state)
-        contact = update(truth, state)
-        poison.spoil(contact)
-        poison.spoil(state)
+        contact = poison.antidote(update)(truth, state)
+        assert isinstance(contact, Record)
+        if id(contact) not in poison.hidden:
+            poison.spoil(contact)
         return contact
 
     def control_without_truth(*arguments: object) -> None:
-        assert np.isnan(plants[0].state.array.view(np.float64)).all()
+        assert len(poison.hidden) == 2  # State and TrueContact
+        assert all(np.isnan(numbers).all() for numbers, _ in poison.hidden.values())
         poison.controls += 1
         control(*arguments)
 
-    for name in ("sample_imu", "sample_pose", "sample_tof"):
-        monkeypatch.setattr(Instruments, name, poison.around(getattr(Instruments, name), 1))
-    monkeypatch.setattr(Instruments, "sample_probe", poison.around(Instruments.sample_probe, 1, 2))
-    monkeypatch.setattr(Recorder, "rows", poison.around(Recorder.rows, 2, 3))
+    for name in ("sample_imu", "sample_pose", "sample_tof", "sample_probe"):
+        monkeypatch.setattr(Instruments, name, poison.antidote(getattr(Instruments, name)))
+    monkeypatch.setattr(Recorder, "rows", poison.antidote(Recorder.rows))
     monkeypatch.setattr(Plant, "observe", observe_and_spoil)
-    monkeypatch.setattr(Plant, "place", place_and_keep)
     monkeypatch.setattr(ContactTruth, "update", update_and_spoil)
     monkeypatch.setattr(ImpedanceStack, "control", control_without_truth)
     poisoned = SHORT.fly(campaign, "poisoned")
