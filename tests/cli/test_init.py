@@ -54,7 +54,11 @@ def test_the_wheel_carries_every_package(root: Path) -> None:
         ".".join(file.parent.relative_to(root).parts)
         for file in (root / "inspect_cli").rglob("__init__.py")
     }
-    carried = set(settings["package-dir"])
+    carried = {
+        ".".join((package, *inner.relative_to(root / folder).parts))
+        for package, folder in settings["package-dir"].items()
+        for inner in (root / folder, *(root / folder).rglob("*/"))
+    }
     assert set(settings["packages"]) == present | carried
     for folder in settings["package-dir"].values():
         assert (root / folder).is_dir()

@@ -235,7 +235,7 @@ def test_push_away_gives_invalid_readings_and_a_lie_shows(flight: SyntheticFligh
     assert value(flight, "contact.points_valid") == 8
     assert value(flight, "half_cell.map_mismatches") == 1
     point = evaluate(flight.log()).points[5]
-    assert (point.valid, point.reason) == (False, "the force did not stay at 1 N for 2 s")
+    assert (point.valid, point.reason) == (False, "force: it did not stay at 1 N for 2 s")
     assert (point.potential_mv, point.astm_class, point.corrosion) == (None, None, None)
     assert point.true_force_n == pytest.approx(0.6)
 
