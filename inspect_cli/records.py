@@ -147,7 +147,7 @@ class State(Record):
     p_WT = vector(3, "m", "W", "position of the tool's tip")
     q_WT = vector(4, "1", "W", "attitude of the tool, unit quaternion wxyz")
     f_tool_W = vector(3, "N", "W", "contact force on the tool's tip")
-    f_normal = scalar("N", "normal component of the tool's contact force, pressing is positive")
+    f_normal = scalar("N", "contact force against the tool's axis, pressing is positive")
     f_body = scalar("N", "contact force on anything but the tool and the landing gear")
     wrench_ext_B = vector(6, "N, N·m", "B", "all external force and torque about O_b but gravity")
     joint_angle = vector("n_joints", "rad", "", "angles of tilt and arm joints")
@@ -221,6 +221,7 @@ class InvalidReason(IntEnum):
     UNSTABLE = 4
     OPEN_CIRCUIT = 5
     ABORTED = 6
+    NO_SIGNAL = 7
 
 
 class Reading(Record):

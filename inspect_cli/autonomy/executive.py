@@ -34,6 +34,8 @@ PAUSE_S = 0.2
 """At rest at the end of each stretch before the next begins."""
 SAFE_HOVER_S = 3.0
 """Hover at rest after an abort before the run ends."""
+NEAREST_SHARE = 0.4
+"""Of the standoff: a surface that is nearer on the way to it is not where it was planned."""
 TOUCHDOWN_M = 0.15
 """How far below standing height the vehicle leans on the ground before its motors stop."""
 BEFORE_CONTACT_M = 0.01
@@ -58,6 +60,10 @@ class Guidance(Protocol):
 
     def observe(self, t_s: float, surface: SurfaceEstimate) -> None:
         """Correct the aim by what the camera sees."""
+        ...
+
+    def contradicts(self, target: Target, surface: SurfaceEstimate) -> bool:
+        """Whether the surface cannot be the one that was planned at the target."""
         ...
 
     def hold(self, t_s: float) -> None:
@@ -149,8 +155,14 @@ class Executive:
 
     def saw_surface(self, surface: SurfaceEstimate) -> None:
         """The depth camera produced an estimate; only a valid one counts."""
-        if surface.valid:
-            self._inputs.surface_seen_s = surface.t_s
+        if not surface.valid:
+            return
+        inputs = self._inputs
+        inputs.surface_seen_s, inputs.surface_distance_m = surface.t_s, surface.distance
+        if self.target < 0:
+            return
+        if not self._guidance.contradicts(self._plan.targets[self.target], surface):
+            inputs.surface_agreed_s = surface.t_s
 
     def probe_sampled(self, probe: Probe, p_WT: Vector) -> None:
         """The probe produced a sample."""
@@ -238,7 +250,7 @@ class Executive:
         target = self._plan.targets[leg.target]
         if mode == Mode.APPROACH:
             self._waiting_for_surface = True
-            self._inputs.surface_seen_s = min(self._inputs.surface_seen_s, t_s)
+            self._inputs.surface_seen_s = self._inputs.surface_agreed_s = t_s
         elif mode == Mode.PRESS:
             self._judge = self._new_judge(target)
             self._judge.begin(target.index, t_s)
@@ -247,7 +259,7 @@ class Executive:
             self._guidance.approach(t_s, target, -target.standoff_m, leg.speed_mps)
 
     def _begin_approach_when_seen(self, t_s: float) -> None:
-        if self._inputs.surface_seen_s < self._since_s + PAUSE_S:
+        if self._inputs.surface_agreed_s < self._since_s + PAUSE_S:
             return
         self._waiting_for_surface = False
         leg = self._plan.legs[self._leg]
@@ -258,6 +270,10 @@ class Executive:
         self.mode, self.target, self._since_s = mode, target, t_s
         self._resting_since_s = None
         self._waiting_for_surface = False
+        aim = self._plan.targets[target] if target >= 0 else None
+        pressing = aim is not None and mode in (Mode.PRESS, Mode.RETREAT)
+        self._inputs.press_m = aim.press_m if aim is not None and pressing else 0.0
+        self._inputs.least_distance_m = NEAREST_SHARE * aim.standoff_m if aim else 0.0
         point = "" if target < 0 else f", point {self._plan.targets[target].label}"
         self.events.append(Event(t_s, "info", f"{mode.name.lower()}{point}"))
 

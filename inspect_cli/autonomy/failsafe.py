@@ -37,34 +37,50 @@ class FlightInputs:
     """When the last pose was accepted."""
     surface_seen_s: float = 0.0
     """When the last valid surface estimate came."""
+    surface_agreed_s: float = 0.0
+    """When the last one came that does not contradict the plan of the target."""
+    surface_distance_m: float = np.inf
+    """From the tip to the surface that was seen last; infinite when that is long ago."""
+    least_distance_m: float = 0.0
+    """How near the surface ahead may come on the way to the target."""
+    press_m: float = 0.0
+    """How far behind the surface the reference may lie."""
 
     position_error_m: float = 0.0
     """Distance between estimate and reference."""
     attitude_error_rad: float = 0.0
     """Angle between estimate and reference."""
+    force_n: float = 0.0
+    """Estimated external force."""
 
     def refresh(self, t_s: float) -> None:
         """Bring time and errors up to date."""
         self.t_s = t_s
         errors = tracking_errors(self.estimate.array, self.reference.array)
-        self.position_error_m, self.attitude_error_rad = errors
+        self.position_error_m, self.attitude_error_rad, self.force_n = errors
+        if t_s - self.surface_seen_s > STALE_S:
+            self.surface_distance_m = np.inf
 
 
 @kernel
-def tracking_errors(estimate: Structured, reference: Structured) -> tuple[float, float]:
-    """(distance m, angle rad) between an Estimate (1,) and a Reference (1,)."""
+def tracking_errors(estimate: Structured, reference: Structured) -> tuple[float, float, float]:
+    """(distance m, angle rad) between an Estimate and a Reference (1,); the external force, N."""
     now, ref = estimate[0], reference[0]
-    square = 0.0
+    square, force = 0.0, 0.0
     for k in range(3):
         square += (now["p_WB"][k] - ref["p_WB"][k]) ** 2
+        force += now["wrench_B"][k] ** 2
     cosine = 0.0
     for k in range(4):
         cosine += now["q_WB"][k] * ref["q_WB"][k]
-    return np.sqrt(square), 2.0 * np.arccos(min(abs(cosine), 1.0))
+    return np.sqrt(square), 2.0 * np.arccos(min(abs(cosine), 1.0)), np.sqrt(force)
 
 
 FLYING = frozenset({Mode.TAKEOFF, Mode.TRANSIT, Mode.APPROACH, Mode.PRESS, Mode.RETREAT, Mode.LAND})
 NEAR_SURFACE = frozenset({Mode.APPROACH, Mode.PRESS})
+FREE = frozenset({Mode.TRANSIT, Mode.APPROACH})
+STALE_S = 0.5
+"""An estimate of the surface that is older tells nothing of the present."""
 
 
 @dataclass(frozen=True)
@@ -85,19 +101,40 @@ FAILSAFES: tuple[Failsafe, ...] = (
         FLYING,
         lambda i: not i.t_s - i.pose_heard_s <= 0.25,
         0.0,
-        Action.HOVER,
+        Action.RETREAT,
     ),
     Failsafe(
         "surface not seen by the depth camera",
         NEAR_SURFACE,
-        lambda i: not i.t_s - i.surface_seen_s <= 0.5,
+        lambda i: not i.t_s - i.surface_seen_s <= STALE_S,
         1.5,
+        Action.RETREAT,
+    ),
+    Failsafe(
+        "surface contradicts the plan",
+        NEAR_SURFACE,
+        lambda i: not i.surface_seen_s - i.surface_agreed_s <= STALE_S,
+        0.5,
+        Action.RETREAT,
+    ),
+    Failsafe(
+        "surface nearer than planned on the way",
+        frozenset({Mode.TRANSIT}),
+        lambda i: not i.surface_distance_m >= i.least_distance_m,
+        0.1,
+        Action.HOVER,
+    ),
+    Failsafe(
+        "unexpected force above 12 N",
+        FREE,
+        lambda i: not i.force_n <= 12.0,
+        0.1,
         Action.RETREAT,
     ),
     Failsafe(
         "position error above 0.6 m",
         FLYING,
-        lambda i: not i.position_error_m <= 0.6,
+        lambda i: not i.position_error_m <= 0.6 + i.press_m,
         0.5,
         Action.RETREAT,
     ),

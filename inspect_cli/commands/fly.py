@@ -23,6 +23,7 @@ from inspect_cli.schema.loading import Loaded, load_mission
 from inspect_cli.schema.plan import Plan, PlanFile
 from inspect_cli.schema.result import Result
 from inspect_cli.simulation.loop import Ending, Flight
+from inspect_cli.truth.geometry import StructureTruth, true_structure
 from inspect_cli.vehicles.kinds import Vehicle
 
 VERSIONED = ("inspect-cli", "mujoco", "numpy", "numba", "mcap")
@@ -55,8 +56,9 @@ def fly(
     plan = plan or plan_loaded(loaded, vehicle)
     seed = loaded.mission.seeds[0] if seed is None else seed
     folder = out or run_folder(loaded.root, plan.mission, plan.platform, seed)
+    structure = true_structure(loaded.truth, plan.surfaces, loaded.root)
     prepare_run(folder)
-    ending = _fly(folder, vehicle, plan, loaded, seed, progress)
+    ending = _fly(folder, vehicle, plan, loaded, structure, seed, progress)
     write_model(folder / "plan.json", plan)
     result = evaluate(read_log(folder / LOG_NAME))
     write_model(folder / "metrics.json", result)
@@ -69,6 +71,7 @@ def _fly(
     vehicle: Vehicle,
     plan: Plan,
     loaded: Loaded,
+    structure: StructureTruth,
     seed: int,
     progress: Callable[[float, float], None] | None,
 ) -> Ending:
@@ -77,7 +80,7 @@ def _fly(
     with LogWriter(folder / LOG_NAME, CORE_RECORDS, lengths) as log:
         _attach(log, loaded, plan, seed)
         log.scene(0.0, plan)
-        flight = Flight(vehicle, plan, loaded.truth, loaded.root, seed, log)
+        flight = Flight(vehicle, plan, loaded.truth, structure, seed, log)
         report = (lambda t_s: progress(t_s, plan.duration_s)) if progress else None
         try:
             ending = flight.run(report)

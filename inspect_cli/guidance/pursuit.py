@@ -166,6 +166,10 @@ class Pursuit:
             approach.announced = seen
             self._arrival_s = self._trajectory.end_s
 
+    def contradicts(self, target: Target, surface: SurfaceEstimate) -> bool:
+        """Whether an estimate is turned or shifted too far to be the target's surface."""
+        return _Surface.seen(target, surface) is None
+
     def hold(self, t_s: float) -> None:
         """Brake within the limits and stay there."""
         start = self._trajectory.motion(t_s)

@@ -112,6 +112,7 @@ def _reason(reading: Structured | None, status: Status, probe: HalfCellModel) ->
             f"for {probe.stable_s:g} s"
         ),
         InvalidReason.OPEN_CIRCUIT: "open circuit between probe and reinforcement",
+        InvalidReason.NO_SIGNAL: "the probe sent nothing",
         InvalidReason.ABORTED: "the flight was aborted",
     }
     number = float(reading["reason"])

@@ -98,9 +98,9 @@ class ProximityEffects(Strict):
 
 
 class SensorFault(Strict):
-    """A sensor that fails during the flight."""
+    """A sensor that fails during the flight. Nothing flies on without its inertial unit."""
 
-    sensor: Literal["tof", "pose", "imu", "probe"]
+    sensor: Literal["tof", "pose", "probe"]
     fault: Literal["off", "nan"] = "off"
     start_s: NonNegative = 0.0
     end_s: Positive | None = None

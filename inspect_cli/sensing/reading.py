@@ -133,6 +133,8 @@ class ReadingJudge:
         """Why the visit has no reading; the first cause in the chain of what it takes."""
         if self._accepted:
             return InvalidReason.NONE
+        if not any(math.isfinite(s.force) for s in samples):
+            return InvalidReason.NO_SIGNAL
         if self._largest_n < NO_CONTACT_SHARE * self._model.min_force_n:
             return InvalidReason.NO_CONTACT
         if self._run_s < self._unbroken_s - TICK_S or self._total_s < self._dwell_s - TICK_S:

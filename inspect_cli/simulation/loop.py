@@ -8,7 +8,6 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from pathlib import Path
 from time import perf_counter
 
 import numpy as np
@@ -33,7 +32,7 @@ from inspect_cli.spatial.types import Matrix, Vector
 from inspect_cli.truth.contact import ContactTruth
 from inspect_cli.truth.disturbances import Disturbances
 from inspect_cli.truth.faults import Faults
-from inspect_cli.truth.geometry import true_structure
+from inspect_cli.truth.geometry import StructureTruth
 from inspect_cli.truth.proximity import Proximity
 from inspect_cli.vehicles.kinds import Vehicle
 
@@ -57,13 +56,12 @@ class Flight:
         vehicle: Vehicle,
         plan: Plan,
         truth: TruthModel,
-        campaign: Path,
+        structure: StructureTruth,
         seed: int,
         log: LogWriter,
     ) -> None:
         platform, lengths = vehicle.platform, vehicle.capabilities.lengths
         rates = platform.rates
-        structure = true_structure(truth, plan.surfaces, campaign)
         model = build_world(vehicle, truth.platform, structure)
         radius_m = vehicle.actuators.rotor_radius_m
         proximity = Proximity(truth.proximity, structure.primitives, radius_m)
@@ -158,6 +156,8 @@ class Flight:
             plant.disturb(tick.t_s)
             plant.apply(stack.command)
         if "log" in due:
+            if "control" not in due:
+                self.guidance.write(tick.t_s)
             self.contact.update(state)
             self.recorder.rows(tick.t_s)
 

@@ -93,6 +93,8 @@ class FakeGuidance:
     calls: list[tuple[str, float, float]] = field(default_factory=list)
     """(what, depth or height of the goal, speed)."""
     arrival_s: float = 0.0
+    contradicted: bool = False
+    """What the next surfaces do to the plan."""
 
     def go_to(self, t_s: float, postures: Sequence[Posture], speed_mps: float) -> None:
         self._ask(t_s, "go_to", float(postures[-1].p_WB[2]), speed_mps)
@@ -102,6 +104,9 @@ class FakeGuidance:
 
     def observe(self, t_s: float, surface: SurfaceEstimate) -> None:
         raise AssertionError("the loop hands surfaces to guidance, not the executive")
+
+    def contradicts(self, target: Target, surface: SurfaceEstimate) -> bool:
+        return self.contradicted
 
     def hold(self, t_s: float) -> None:
         self._ask(t_s, "hold", 0.0, 0.0)
@@ -168,7 +173,7 @@ class Script:
             self.executive.heard_pose(self.t_s)
         if self.surfaces:
             seen = SurfaceEstimate.create()
-            seen.t_s, seen.valid = self.t_s, 1.0
+            seen.t_s, seen.valid, seen.distance = self.t_s, 1.0, 0.25
             self.executive.saw_surface(seen)
         self.executive.probe_sampled(Probe.create(), np.zeros(3))
         self.executive.update(self.t_s)

@@ -21,19 +21,21 @@ from inspect_cli.records import Estimate, Mode, Reference
 LENGTHS = {"n_rotors": 0, "n_joints": 0, "n_arm": 0}
 ROWS = {row.name: row for row in FAILSAFES}
 POSE, SURFACE = "pose measurements lost", "surface not seen by the depth camera"
+CONTRADICTED = "surface contradicts the plan"
+NEAR, PUSHED = "surface nearer than planned on the way", "unexpected force above 12 N"
 POSITION, ATTITUDE = "position error above 0.6 m", "attitude error above 0.6 rad"
 
 
 def inputs(t_s: float = 10.0, **values: float) -> FlightInputs:
     """All is well at ``t_s`` but for what is given."""
-    good = FlightInputs(t_s, Estimate.create(), Reference.create(LENGTHS), t_s, t_s)
+    good = FlightInputs(t_s, Estimate.create(), Reference.create(LENGTHS), t_s, t_s, t_s)
     for name, value in values.items():
         setattr(good, name, value)
     return good
 
 
 def test_the_table_names_what_these_tests_know() -> None:
-    assert set(ROWS) == {POSE, SURFACE, POSITION, ATTITUDE}
+    assert set(ROWS) == {POSE, SURFACE, CONTRADICTED, NEAR, PUSHED, POSITION, ATTITUDE}
 
 
 @pytest.mark.parametrize(
@@ -41,6 +43,9 @@ def test_the_table_names_what_these_tests_know() -> None:
     [
         (POSE, "pose_heard_s", 9.76, 9.74),
         (SURFACE, "surface_seen_s", 9.51, 9.49),
+        (CONTRADICTED, "surface_agreed_s", 9.51, 9.49),
+        (NEAR, "surface_distance_m", 0.01, -0.01),
+        (PUSHED, "force_n", 11.9, 12.1),
         (POSITION, "position_error_m", 0.59, 0.61),
         (ATTITUDE, "attitude_error_rad", 0.59, 0.61),
     ],
@@ -57,7 +62,13 @@ def test_each_row_has_its_limit_and_takes_nan_for_a_violation(
 @pytest.mark.parametrize("mode", list(Mode))
 def test_each_row_watches_its_modes(mode: Mode) -> None:
     everything_bad = inputs(
-        pose_heard_s=0.0, surface_seen_s=0.0, position_error_m=9.0, attitude_error_rad=3.0
+        pose_heard_s=0.0,
+        surface_seen_s=0.0,
+        surface_agreed_s=-9.0,
+        surface_distance_m=-1.0,
+        force_n=50.0,
+        position_error_m=9.0,
+        attitude_error_rad=3.0,
     )
     due = set()
     for row in FAILSAFES:
@@ -68,8 +79,16 @@ def test_each_row_watches_its_modes(mode: Mode) -> None:
             due.add(row.name)
         everything_bad.t_s = 10.0
     expected = {POSE, POSITION, ATTITUDE} if mode in FLYING else set()
-    expected |= {SURFACE} if mode in NEAR_SURFACE else set()
+    expected |= {SURFACE, CONTRADICTED} if mode in NEAR_SURFACE else set()
+    expected |= {NEAR} if mode == Mode.TRANSIT else set()
+    expected |= {PUSHED} if mode in (Mode.TRANSIT, Mode.APPROACH) else set()
     assert due == expected
+
+
+def test_a_press_may_lie_behind_the_surface() -> None:
+    """The reference is ``press_m`` behind what stops the tool; that is no loss of control."""
+    assert not ROWS[POSITION].violated(inputs(position_error_m=1.1, press_m=0.6))
+    assert ROWS[POSITION].violated(inputs(position_error_m=1.3, press_m=0.6))
 
 
 def test_on_the_ground_and_after_an_abort_nothing_is_watched() -> None:
@@ -141,7 +160,9 @@ def test_tracking_errors_are_distance_and_angle() -> None:
         for record, turn in zip((estimate, reference), turns, strict=True):
             record.p_WB[:] = rng.normal(size=3)
             record.q_WB[:] = turn.as_quat()[[3, 0, 1, 2]] * rng.choice([-1.0, 1.0])
-        distance, angle = tracking_errors(estimate.array, reference.array)
+        estimate.wrench_B[:] = rng.normal(size=6)
+        distance, angle, force = tracking_errors(estimate.array, reference.array)
+        assert force == pytest.approx(np.linalg.norm(estimate.wrench_B[:3]))
         assert distance == pytest.approx(np.linalg.norm(estimate.p_WB - reference.p_WB))
         assert angle == pytest.approx((turns[0].inv() * turns[1]).magnitude(), abs=1e-6)
     same = inputs()

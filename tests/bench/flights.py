@@ -24,6 +24,7 @@ from inspect_cli.log.writer import LogWriter
 from inspect_cli.records import CORE_RECORDS
 from inspect_cli.schema.loading import Loaded
 from inspect_cli.simulation.loop import Flight
+from inspect_cli.truth.geometry import true_structure
 from tests.bench.rows import Row
 
 PAIRS = 5
@@ -78,7 +79,8 @@ class Pair:
         log = LogWriter(self._file, CORE_RECORDS, lengths)
         loaded = self._loaded
         seed = loaded.mission.seeds[0]
-        return Flight(self._vehicle, self._plan, loaded.truth, loaded.root, seed, log), log
+        structure = true_structure(loaded.truth, self._plan.surfaces, loaded.root)
+        return Flight(self._vehicle, self._plan, loaded.truth, structure, seed, log), log
 
     def _prepare_replay(self) -> None:
         """Fly once, which also compiles every kernel, and keep the controls of each step."""

@@ -82,7 +82,7 @@ def test_values_are_medians_of_the_last_second() -> None:
         (lambda t: 1.8 if t < 1.5 else 0.0, InvalidReason.FORCE, 1.45),
         # Sufficient for 60 % of the time, but never for two seconds on end.
         (lambda t: 1.8 if t % 2.5 < 1.5 else 0.0, InvalidReason.FORCE, 1.45),
-        (lambda _t: np.nan, InvalidReason.NO_CONTACT, 0.0),
+        (lambda _t: np.nan, InvalidReason.NO_SIGNAL, 0.0),
     ],
 )
 def test_force_that_does_not_last(force: Script, expected: InvalidReason, contact_s: float) -> None:
@@ -152,7 +152,7 @@ def test_a_judge_begins_anew() -> None:
     judge.begin(1, 4.0)
     assert not judge.done(4.0)
     untouched = judge.finish(4.0)
-    assert reason(untouched) is InvalidReason.NO_CONTACT
+    assert reason(untouched) is InvalidReason.NO_SIGNAL
     assert untouched.target == 1.0
     assert np.isnan(untouched.p_WT).all()
 
