@@ -84,6 +84,8 @@ class ContactOptions(Strict):
     """Time with sufficient force before a reading may be accepted."""
     standoff_m: Positive = 0.25
     """Distance of the tool's tip from the surface before approach and after retreat."""
+    off_target_m: Positive = 0.03
+    """A reading taken farther than this from its point, along the surface, does not count."""
 
 
 class ContactGrid(ContactOptions):
