@@ -249,19 +249,28 @@ def _what(detail: dict[str, Any], spot: _Spot) -> tuple[str, str]:
         name, words = _BOUNDS[kind]
         return f"must be {words} {detail['ctx'][name]:g}; found {found}", ""
     if kind in ("missing", "too_short", "too_long"):
-        return _length(spot), ""
+        return _length(detail, spot), ""
     if kind == "value_error":
         return str(detail["ctx"]["error"]), ""
     return str(detail["msg"]), ""
 
 
-def _length(spot: _Spot) -> str:
+def _length(detail: dict[str, Any], spot: _Spot) -> str:
     value = spot.node.value
     count = len(value) if isinstance(value, tuple | dict) else 0
     arguments = get_args(_bare(spot.within if spot.absent is not None else spot.kind))
     if arguments and Ellipsis not in arguments and get_origin(_bare(spot.kind)) is not dict:
         return f"must have {len(arguments)} items; found {count}"
-    return "must not be empty" if count == 0 else f"has {count} items, which is too many"
+    if count == 0:
+        return "must not be empty"
+    context = detail.get("ctx", {})
+    if "min_length" in context:
+        return f"has {_items(count)}, which is too few: at least {context['min_length']}"
+    return f"has {_items(count)}, which is too many: at most {context['max_length']}"
+
+
+def _items(count: int) -> str:
+    return "1 item" if count == 1 else f"{count} items"
 
 
 def _value_hint(kind: str, spot: _Spot) -> str:

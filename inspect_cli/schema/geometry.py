@@ -2,13 +2,24 @@
 
 from __future__ import annotations
 
+import math
 from typing import Annotated, Literal
 
-from pydantic import Field
+from pydantic import Field, model_validator
 
 from inspect_cli.schema.base import Direction, Positive, Strict, Triple
 
 Side = Literal["outside", "inside"]
+
+ROUNDING = 1e-9
+"""A patch that goes all the way around may have been written out with rounded numbers."""
+LEAST_ANGLE_RAD = 1e-6
+"""``facing`` nearer to a cylinder's axis than this tells no direction from it."""
+
+
+def _require_arc(size_m: float, circle_share_m: float, what: str) -> None:
+    if size_m > circle_share_m * (1.0 + ROUNDING):
+        raise ValueError(f"size_m: {size_m:g} is longer than {what}, {circle_share_m:.6g}")
 
 
 class PlaneShape(Strict):
@@ -33,6 +44,12 @@ class SphereShape(Strict):
     """Arc lengths of the patch along its equator u and meridian v."""
     side: Side = "outside"
 
+    @model_validator(mode="after")
+    def _once_around(self) -> SphereShape:
+        _require_arc(self.size_m[0], 2.0 * math.pi * self.radius_m, "the equator 2πR")
+        _require_arc(self.size_m[1], math.pi * self.radius_m, "a meridian πR")
+        return self
+
 
 class CylinderShape(Strict):
     """A patch of a cylinder around the direction ``facing`` from its axis."""
@@ -47,6 +64,19 @@ class CylinderShape(Strict):
     size_m: tuple[Positive, Positive]
     """Arc length u around the axis and length v along it."""
     side: Side = "outside"
+
+    @model_validator(mode="after")
+    def _once_around(self) -> CylinderShape:
+        _require_arc(self.size_m[0], 2.0 * math.pi * self.radius_m, "the circumference 2πR")
+        return self
+
+    @model_validator(mode="after")
+    def _facing_away_from_the_axis(self) -> CylinderShape:
+        along = sum(a * f for a, f in zip(self.axis, self.facing, strict=True))
+        across = [f - along * a for a, f in zip(self.axis, self.facing, strict=True)]
+        if math.hypot(*across) < LEAST_ANGLE_RAD:
+            raise ValueError("facing must not be parallel to axis: it says which side is touched")
+        return self
 
 
 Shape = Annotated[PlaneShape | SphereShape | CylinderShape, Field(discriminator="kind")]

@@ -4,10 +4,9 @@ from __future__ import annotations
 
 from typing import Annotated, Literal
 
-from pydantic import Field, model_validator
+from pydantic import AfterValidator, Field, model_validator
 
 from inspect_cli.schema.base import (
-    Count,
     Name,
     NonNegative,
     Positive,
@@ -18,6 +17,22 @@ from inspect_cli.schema.geometry import Displacement, Shape
 from inspect_cli.schema.truth import TruthModel
 
 Fit = Literal["plane", "sphere", "cylinder", "auto"]
+
+MAX_POINTS = 10_000
+
+
+def _without_repetition(seeds: tuple[int, ...]) -> tuple[int, ...]:
+    again = sorted({seed for seed in seeds if seeds.count(seed) > 1})
+    if again:
+        raise ValueError(f"the same seed a second time: {', '.join(map(str, again))}")
+    return seeds
+
+
+Seeds = Annotated[
+    tuple[Annotated[int, Field(ge=0)], ...],
+    Field(min_length=1, json_schema_extra={"uniqueItems": True}),
+    AfterValidator(_without_repetition),
+]
 
 
 class CropBox(Strict):
@@ -67,6 +82,16 @@ class SurfaceSource(Strict):
             raise ValueError(f"give exactly one of shape, cloud, mesh; found {found}")
         return self
 
+    @model_validator(mode="after")
+    def _nothing_to_fit(self) -> SurfaceSource:
+        fitting = ("fit", "options", "crop")
+        fields = type(self).model_fields
+        idle = [n for n in fitting if getattr(self, n) != fields[n].default]
+        if self.shape is not None and idle:
+            named = " and ".join(idle)
+            raise ValueError(f"a shape is taken as it is given; {named} would have no effect")
+        return self
+
 
 class StructureSurface(Strict):
     """One named surface of the structure as the planner may know it."""
@@ -80,9 +105,9 @@ class ContactOptions(Strict):
 
     press_m: Annotated[float, Field(gt=0, le=1.0)] = 0.10
     """Set-point behind the surface while pressing."""
-    dwell_s: Positive = 3.0
+    dwell_s: Annotated[float, Field(gt=0, le=3600)] = 3.0
     """Time with sufficient force before a reading may be accepted."""
-    standoff_m: Positive = 0.25
+    standoff_m: Annotated[float, Field(gt=0, le=1.5)] = 0.25
     """Distance of the tool's tip from the surface before approach and after retreat."""
     off_target_m: Positive = 0.03
     """A reading taken farther than this from its point, along the surface, does not count."""
@@ -92,19 +117,29 @@ class ContactGrid(ContactOptions):
     """A grid of points along the surface's level direction u and along v."""
 
     on: Name
-    rows: Count
-    columns: Count
+    rows: Annotated[int, Field(ge=1, le=1000)]
+    columns: Annotated[int, Field(ge=1, le=1000)]
     pitch_m: Positive
     offset_m: tuple[float, float] = (0.0, 0.0)
     """(u, v) of the grid's middle from the middle of the surface."""
     order: Literal["boustrophedon", "rows", "shortest"] = "boustrophedon"
+
+    @model_validator(mode="after")
+    def _not_too_many(self) -> ContactGrid:
+        count = self.rows * self.columns
+        if count > MAX_POINTS:
+            raise ValueError(
+                f"{self.rows} rows of {self.columns} columns are {count} points; "
+                f"at most {MAX_POINTS} in one task: split it into several missions"
+            )
+        return self
 
 
 class ContactPoints(ContactOptions):
     """Points given one by one."""
 
     on: Name
-    at_m: Annotated[tuple[Triple, ...], Field(min_length=1)]
+    at_m: Annotated[tuple[Triple, ...], Field(min_length=1, max_length=MAX_POINTS)]
     """World positions on the surface, within ``tolerance_m`` of it."""
     tolerance_m: Positive = 0.05
     order: Literal["given", "shortest"] = "given"
@@ -137,7 +172,7 @@ class Start(Strict):
 
     position_m: tuple[float, float] = (0.0, 0.0)
     heading_deg: float = 0.0
-    takeoff_height_m: Positive = 1.0
+    takeoff_height_m: Annotated[float, Field(gt=0, le=120)] = 1.0
 
 
 class FlightOptions(Strict):
@@ -188,7 +223,7 @@ class Mission(Strict):
     impedance: Name = "contact_ndt"
     """Which of the platform's impedance profiles to fly with."""
     estimation: Literal["external"] = "external"
-    seeds: Annotated[tuple[Annotated[int, Field(ge=0)], ...], Field(min_length=1)] = (1, 2, 3)
+    seeds: Seeds = (1, 2, 3)
     tags: tuple[Name, ...] = ()
     start: Start = Start()
     flight: FlightOptions = FlightOptions()

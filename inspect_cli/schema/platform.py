@@ -6,9 +6,10 @@ Numbers that no source gives are chosen once and listed under ``chosen`` with th
 
 from __future__ import annotations
 
+import math
 from typing import Annotated, Literal
 
-from pydantic import Field, model_validator
+from pydantic import AfterValidator, Field, model_validator
 
 from inspect_cli.schema.base import (
     Count,
@@ -19,6 +20,8 @@ from inspect_cli.schema.base import (
     Strict,
     Triple,
 )
+
+SAME_AZIMUTH_DEG = 1e-6
 
 
 class Rates(Strict):
@@ -65,14 +68,25 @@ class PoseModel(Strict):
     attitude_noise_rad: NonNegative
 
 
+def _rising(range_m: tuple[float, float]) -> tuple[float, float]:
+    if range_m[0] >= range_m[1]:
+        raise ValueError(
+            f"the least range {range_m[0]:g} must be below the greatest {range_m[1]:g}"
+        )
+    return range_m
+
+
+PinholeAngle = Annotated[float, Field(gt=0, lt=180)]
+
+
 class TofModel(Strict):
     """The depth camera: a pinhole at the arm's base, its axes parallel to the tool's."""
 
     position_B_m: Triple
     columns: Annotated[int, Field(ge=64)]
     rows: Annotated[int, Field(ge=48)]
-    field_of_view_deg: tuple[Positive, Positive]
-    range_m: tuple[Positive, Positive]
+    field_of_view_deg: tuple[PinholeAngle, PinholeAngle]
+    range_m: Annotated[tuple[Positive, Positive], AfterValidator(_rising)]
     noise_m: NonNegative
     """Standard deviation of the range at 1 m; it grows with the square of the distance."""
     noise_floor_m: NonNegative
@@ -208,11 +222,22 @@ class TiltUnit(Strict):
     """± range of the tilt; without it the joint turns freely."""
 
 
+def _of_a_body(inertia: tuple[float, float, float]) -> tuple[float, float, float]:
+    for i, axis in enumerate("xyz"):
+        own, others = inertia[i], inertia[i - 1] + inertia[i - 2]
+        if own > others:
+            raise ValueError(
+                f"no body has these moments of inertia: {own:g} about {axis} "
+                f"is more than the sum of the other two, {others:g}"
+            )
+    return inertia
+
+
 class Core(Strict):
     """The body without groups and arm."""
 
     mass_kg: Positive
-    inertia_kgm2: PositiveTriple
+    inertia_kgm2: Annotated[PositiveTriple, AfterValidator(_of_a_body)]
     com_m: Triple
     radius_m: Positive
     height_m: Positive
@@ -231,6 +256,18 @@ class Tool(Strict):
     tip_damping_ratio: Positive
 
 
+def _apart(groups: tuple[TiltArm, ...]) -> tuple[TiltArm, ...]:
+    for i, first in enumerate(groups):
+        for j, second in enumerate(groups[i + 1 :], i + 1):
+            between = math.remainder(second.azimuth_deg - first.azimuth_deg, 360.0)
+            if abs(between) < SAME_AZIMUTH_DEG:
+                raise ValueError(
+                    f"groups {i} and {j} stand in the same place: "
+                    f"azimuths {first.azimuth_deg:g}° and {second.azimuth_deg:g}°"
+                )
+    return groups
+
+
 class TiltRotorPlatform(PlatformBase):
     """A rigid body with tilting groups of coaxial rotors and a rigid arm (paper A)."""
 
@@ -238,7 +275,7 @@ class TiltRotorPlatform(PlatformBase):
     core: Core
     rotor: Rotor
     unit: TiltUnit
-    groups: Annotated[tuple[TiltArm, ...], Field(min_length=3)]
+    groups: Annotated[tuple[TiltArm, ...], Field(min_length=3), AfterValidator(_apart)]
     tool: Tool
 
 

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from typing import Annotated, Literal
 
-from pydantic import Field
+from pydantic import Field, model_validator
 
 from inspect_cli.schema.base import Name, NonNegative, Positive, Strict, Triple
 from inspect_cli.schema.geometry import Displacement, Shape
@@ -104,6 +104,13 @@ class SensorFault(Strict):
     fault: Literal["off", "nan"] = "off"
     start_s: NonNegative = 0.0
     end_s: Positive | None = None
+    """Without it, the fault lasts to the end of the flight."""
+
+    @model_validator(mode="after")
+    def _lasts(self) -> SensorFault:
+        if self.end_s is not None and self.end_s <= self.start_s:
+            raise ValueError(f"end_s {self.end_s:g} must be after start_s {self.start_s:g}")
+        return self
 
 
 class TruthModel(Strict):
