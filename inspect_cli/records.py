@@ -222,6 +222,7 @@ class InvalidReason(IntEnum):
     OPEN_CIRCUIT = 5
     ABORTED = 6
     NO_SIGNAL = 7
+    OFF_TARGET = 8
 
 
 class Reading(Record):

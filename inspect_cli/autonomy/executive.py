@@ -119,6 +119,7 @@ class Executive:
         self._guidance = guidance
         self._new_judge = judge
         self._judge: Judge | None = None
+        self._dwelling = False
         self._watch = Watch()
         self._inputs = FlightInputs(0.0, estimate, guidance.reference)
         self._time_limit_s = time_limit_s
@@ -146,8 +147,8 @@ class Executive:
     @property
     def watches_surface(self) -> bool:
         """Whether surface estimates steer the vehicle now."""
-        near = (Mode.APPROACH, Mode.PRESS, Mode.RETREAT)
-        return self.mode in near and not self._waiting_for_surface
+        # A retreat keeps to the surface that it leaves: what it sees of it only gets noisier.
+        return self.mode in (Mode.APPROACH, Mode.PRESS) and not self._waiting_for_surface
 
     def heard_pose(self, t_s: float) -> None:
         """A pose measurement was accepted."""
@@ -159,14 +160,15 @@ class Executive:
             return
         inputs = self._inputs
         inputs.surface_seen_s, inputs.surface_distance_m = surface.t_s, surface.distance
+        inputs.surface_n_W[:] = surface.n_W
         if self.target < 0:
             return
         if not self._guidance.contradicts(self._plan.targets[self.target], surface):
             inputs.surface_agreed_s = surface.t_s
 
     def probe_sampled(self, probe: Probe, p_WT: Vector) -> None:
-        """The probe produced a sample."""
-        if self._judge is not None:
+        """The probe produced a sample; it counts once the set-point is where it shall be."""
+        if self._judge is not None and self._dwelling:
             self._judge.feed(probe, p_WT)
 
     def update(self, t_s: float) -> None:
@@ -201,11 +203,19 @@ class Executive:
         if self.mode == Mode.LANDED:
             return self._settled_down(t_s)
         if self.mode == Mode.PRESS:
-            return self._judge is not None and self._judge.done(t_s)
+            return self._dwelt(t_s)
         if self._waiting_for_surface:
             self._begin_approach_when_seen(t_s)
             return False
         return self._rested(t_s)
+
+    def _dwelt(self, t_s: float) -> bool:
+        """Press to the set-point, then dwell until the judge has decided."""
+        assert self._judge is not None  # a press always has one
+        if not self._dwelling and self._guidance.arrived(t_s):
+            self._dwelling = True
+            self._judge.begin(self.target, t_s)
+        return self._dwelling and self._judge.done(t_s)
 
     def _settled_down(self, t_s: float) -> bool:
         """Lean on the ground, stop the motors, wait."""
@@ -252,8 +262,7 @@ class Executive:
             self._waiting_for_surface = True
             self._inputs.surface_seen_s = self._inputs.surface_agreed_s = t_s
         elif mode == Mode.PRESS:
-            self._judge = self._new_judge(target)
-            self._judge.begin(target.index, t_s)
+            self._judge, self._dwelling = self._new_judge(target), False
             self._guidance.approach(t_s, target, target.press_m, leg.speed_mps)
         else:
             self._guidance.approach(t_s, target, -target.standoff_m, leg.speed_mps)
@@ -280,6 +289,7 @@ class Executive:
     def _take_reading(self, t_s: float) -> None:
         assert self._judge is not None  # a press always has one
         reading = self._judge.finish(t_s)
+        _check_place(reading, self._plan.targets[self.target])
         self._judge = None
         self._judged.add(int(reading.target))
         self.readings.append(reading)
@@ -309,6 +319,15 @@ def posture_of(model: PostureModel) -> Posture:
 def _lower(posture: Posture, by_m: float) -> Posture:
     down = np.array([0.0, 0.0, by_m])
     return Posture(posture.p_WB - down, posture.q_WB, posture.arm_angle)
+
+
+def _check_place(reading: Reading, target: Target) -> None:
+    """Refuse a reading that was taken too far from its point, along the surface."""
+    way = reading.p_WT - target.p_WC
+    along = way - np.array(target.n_W) * float(way @ np.array(target.n_W))
+    if reading.valid and not np.linalg.norm(along) <= target.off_target_m:
+        reading.valid, reading.reason = 0.0, float(InvalidReason.OFF_TARGET)
+        reading.potential = reading.resistance = float("nan")
 
 
 def _no_reading(t_s: float, target: Target) -> Reading:

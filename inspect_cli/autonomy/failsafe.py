@@ -13,7 +13,7 @@ import numpy as np
 
 from inspect_cli.compiled import kernel
 from inspect_cli.records import Estimate, Mode, Reference
-from inspect_cli.spatial.types import Structured
+from inspect_cli.spatial.types import Structured, Vector
 
 
 class Action(IntEnum):
@@ -41,6 +41,8 @@ class FlightInputs:
     """When the last one came that does not contradict the plan of the target."""
     surface_distance_m: float = np.inf
     """From the tip to the surface that was seen last; infinite when that is long ago."""
+    surface_n_W: Vector = field(default_factory=lambda: np.zeros(3))
+    """Its outward normal."""
     least_distance_m: float = 0.0
     """How near the surface ahead may come on the way to the target."""
     press_m: float = 0.0
@@ -52,12 +54,20 @@ class FlightInputs:
     """Angle between estimate and reference."""
     force_n: float = 0.0
     """Estimated external force."""
+    closing_mps: float = 0.0
+    """Estimated speed towards the surface that was seen last."""
+
+    @property
+    def stopping_m(self) -> float:
+        """The way to a stop: a reaction time, then braking."""
+        return REACTION_S * self.closing_mps + 0.5 * self.closing_mps**2 / BRAKING_MPS2
 
     def refresh(self, t_s: float) -> None:
         """Bring time and errors up to date."""
         self.t_s = t_s
         errors = tracking_errors(self.estimate.array, self.reference.array)
         self.position_error_m, self.attitude_error_rad, self.force_n = errors
+        self.closing_mps = max(0.0, -float(self.surface_n_W @ self.estimate.v_WB_W))
         if t_s - self.surface_seen_s > STALE_S:
             self.surface_distance_m = np.inf
 
@@ -73,12 +83,15 @@ def tracking_errors(estimate: Structured, reference: Structured) -> tuple[float,
     cosine = 0.0
     for k in range(4):
         cosine += now["q_WB"][k] * ref["q_WB"][k]
-    return np.sqrt(square), 2.0 * np.arccos(min(abs(cosine), 1.0)), np.sqrt(force)
+    angle = 2.0 * np.arccos(min(abs(cosine), 1.0))
+    return np.sqrt(square), angle, np.sqrt(force)
 
 
 FLYING = frozenset({Mode.TAKEOFF, Mode.TRANSIT, Mode.APPROACH, Mode.PRESS, Mode.RETREAT, Mode.LAND})
 NEAR_SURFACE = frozenset({Mode.APPROACH, Mode.PRESS})
 FREE = frozenset({Mode.TRANSIT, Mode.APPROACH})
+REACTION_S, BRAKING_MPS2 = 0.2, 1.0
+"""How late and how hard the vehicle brakes, for the distance that it needs to stop."""
 STALE_S = 0.5
 """An estimate of the surface that is older tells nothing of the present."""
 
@@ -120,8 +133,8 @@ FAILSAFES: tuple[Failsafe, ...] = (
     Failsafe(
         "surface nearer than planned on the way",
         frozenset({Mode.TRANSIT}),
-        lambda i: not i.surface_distance_m >= i.least_distance_m,
-        0.1,
+        lambda i: not i.surface_distance_m >= i.least_distance_m + i.stopping_m,
+        0.0,
         Action.HOVER,
     ),
     Failsafe(

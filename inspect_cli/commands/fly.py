@@ -11,8 +11,8 @@ from pathlib import Path
 
 from pydantic import ValidationError
 
-from inspect_cli.commands.plan import plan_loaded, vehicle_of
-from inspect_cli.commands.runs import LOG_NAME, prepare_run, run_folder, write_json, write_model
+from inspect_cli.commands.plan import inputs_sha256, plan_loaded, vehicle_of
+from inspect_cli.commands.runs import LOG_NAME, prepared_run, run_folder, write_json, write_model
 from inspect_cli.errors import InputError
 from inspect_cli.log import names
 from inspect_cli.log.reader import read_log
@@ -26,6 +26,7 @@ from inspect_cli.simulation.loop import Ending, Flight
 from inspect_cli.truth.geometry import StructureTruth, true_structure
 from inspect_cli.vehicles.kinds import Vehicle
 
+PLAN_FIRST = "make it anew with 'inspect plan MISSION'"
 VERSIONED = ("inspect-cli", "mujoco", "numpy", "numba", "mcap")
 
 
@@ -57,12 +58,12 @@ def fly(
     seed = loaded.mission.seeds[0] if seed is None else seed
     folder = out or run_folder(loaded.root, plan.mission, plan.platform, seed)
     structure = true_structure(loaded.truth, plan.surfaces, loaded.root)
-    prepare_run(folder)
-    ending = _fly(folder, vehicle, plan, loaded, structure, seed, progress)
-    write_model(folder / "plan.json", plan)
-    result = evaluate(read_log(folder / LOG_NAME))
-    write_model(folder / "metrics.json", result)
-    write_json(folder / "timing.json", _timing(ending))
+    with prepared_run(folder):
+        ending = _fly(folder, vehicle, plan, loaded, structure, seed, progress)
+        write_model(folder / "plan.json", plan)
+        result = evaluate(read_log(folder / LOG_NAME))
+        write_model(folder / "metrics.json", result)
+        write_json(folder / "timing.json", _timing(ending))
     return FlyOutcome(result, folder, ending)
 
 
@@ -96,12 +97,19 @@ def _load(path: Path, platform: Path | None) -> tuple[Loaded, Plan | None]:
         return load_mission(path, platform), None
     try:
         saved = PlanFile.model_validate_json(path.read_bytes())
-    except (OSError, ValidationError) as error:
+    except OSError as error:
+        raise InputError(f"{path}: {error.strerror}", hint=PLAN_FIRST) from error
+    except ValidationError as error:
+        first = error.errors(include_url=False)[0]
+        where = ".".join(map(str, first["loc"]))
+        raise InputError(f"{path}: not a plan: {where}: {first['msg']}", hint=PLAN_FIRST) from error
+    loaded = load_mission(path.parent / saved.mission_file, platform)
+    if inputs_sha256(loaded) != saved.inputs_sha256:
         raise InputError(
-            f"{path} is not a plan that can be flown: {error}",
-            hint="make it with 'inspect plan MISSION'",
-        ) from error
-    return load_mission(Path(saved.mission_file), platform), saved.plan()
+            f"{path}: the mission or the platform has changed since it was planned",
+            hint=PLAN_FIRST,
+        )
+    return loaded, saved.plan()
 
 
 def _attach(log: LogWriter, loaded: Loaded, plan: Plan, seed: int) -> None:

@@ -2,10 +2,16 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+import difflib
+import hashlib
+import os
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 from inspect_cli.commands.runs import plan_folder, write_model
+from inspect_cli.errors import InfeasibleError, Location, Problem, SchemaError
+from inspect_cli.metrics.catalogue import METRICS
 from inspect_cli.planning.planner import make_plan
 from inspect_cli.schema.loading import Loaded, load_mission
 from inspect_cli.schema.plan import Plan, PlanFile
@@ -30,10 +36,20 @@ def plan(mission: Path, platform: Path | None = None, out: Path | None = None) -
     loaded = load_mission(mission, platform)
     made = plan_loaded(loaded, vehicle_of(loaded))
     folder = out or plan_folder(loaded.root, made.mission, made.platform)
+    content = dict(made) | {
+        "mission_file": os.path.relpath(loaded.mission_file.resolve(), folder.resolve()),
+        "inputs_sha256": inputs_sha256(loaded),
+    }
     file = folder / "plan.json"
-    content = dict(made) | {"mission_file": str(loaded.mission_file.resolve())}
     write_model(file, PlanFile.model_construct(**content))
     return PlanOutcome(made, file)
+
+
+def inputs_sha256(loaded: Loaded) -> str:
+    """A fingerprint of what a plan is made from: mission and platform, not the truth."""
+    parts = (loaded.mission, loaded.platform)
+    text = "\n".join(part.model_dump_json(by_alias=True) for part in parts)
+    return hashlib.sha256(text.encode()).hexdigest()
 
 
 def vehicle_of(loaded: Loaded) -> Vehicle:
@@ -42,13 +58,39 @@ def vehicle_of(loaded: Loaded) -> Vehicle:
 
 
 def plan_loaded(loaded: Loaded, vehicle: Vehicle) -> Plan:
-    """The plan of a mission that is already read."""
+    """The plan of a mission that is already read.
+
+    Raises GeometryError and InfeasibleError with the mission's file in every problem.
+    """
+    _check_metrics(loaded)
     half_cell = loaded.platform.sensors.half_cell
-    return make_plan(
-        loaded.mission,
-        loaded.platform.name,
-        vehicle.capabilities,
-        believed_surfaces(loaded.mission, loaded.root),
-        half_cell.cable_m,
-        half_cell.min_force_n,
-    )
+    try:
+        return make_plan(
+            loaded.mission,
+            loaded.platform.name,
+            vehicle.capabilities,
+            believed_surfaces(loaded.mission, loaded.root),
+            half_cell.cable_m,
+            half_cell.min_force_n,
+            loaded.platform.battery.energy_wh,
+        )
+    except InfeasibleError as error:
+        raise InfeasibleError(_placed(error.problems, loaded.mission_file)) from error
+
+
+def _check_metrics(loaded: Loaded) -> None:
+    """Refuse an acceptance of metrics that there are not."""
+    problems = []
+    for entry in loaded.mission.acceptance:
+        named = [entry.metric] + ([entry.over.metric] if entry.over else [])
+        for name in named:
+            if name not in METRICS:
+                near = difflib.get_close_matches(name, METRICS, 1)
+                hint = f"did you mean '{near[0]}'?" if near else ""
+                problems.append(Problem(f"acceptance: no metric is named '{name}'", hint=hint))
+    if problems:
+        raise SchemaError(_placed(problems, loaded.mission_file))
+
+
+def _placed(problems: Sequence[Problem], file: Path) -> list[Problem]:
+    return [replace(p, where=p.where or Location(str(file))) for p in problems]

@@ -23,7 +23,7 @@ class ReportOutcome:
 
 
 def report(runs: Sequence[Path], out: Path | None = None) -> tuple[ReportOutcome, ...]:
-    """Report each run folder or log; ``out`` takes one sub-folder per run if there are several.
+    """Report each run folder or log; with several, ``out`` takes a folder per mission and run.
 
     Raises LogError when a file is no log of ours; then nothing is written for it.
     """
@@ -50,6 +50,6 @@ def log_of(run: Path) -> Path:
 
 def _folder(run: Path, out: Path | None, count: int) -> Path:
     own = run if run.is_dir() else run.parent
-    if out is None:
-        return own
-    return out if count == 1 else out / own.name
+    if out is None or count == 1:
+        return out or own
+    return out / own.resolve().parent.name / own.resolve().name

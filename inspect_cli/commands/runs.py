@@ -7,14 +7,19 @@ reports/<mission>/<platform>-seed<N>/                        a run
 
 from __future__ import annotations
 
+import fcntl
 import json
+from collections.abc import Iterator
+from contextlib import contextmanager
 from pathlib import Path
 
 from pydantic import BaseModel
 
+from inspect_cli.errors import InputError
 from inspect_cli.files import write_whole
 
 LOG_NAME = "flight.mcap"
+LOCK_NAME = ".flying"
 RUN_FILES = (
     "plan.json",
     LOG_NAME,
@@ -36,11 +41,30 @@ def run_folder(root: Path, mission: str, platform: str, seed: int) -> Path:
     return root / "reports" / mission / f"{platform}-seed{seed}"
 
 
-def prepare_run(folder: Path) -> None:
-    """Make a run's folder, without what an earlier run left in it."""
-    folder.mkdir(parents=True, exist_ok=True)
-    for name in RUN_FILES:
-        (folder / name).unlink(missing_ok=True)
+@contextmanager
+def prepared_run(folder: Path) -> Iterator[None]:
+    """A run's folder, without what an earlier run left in it and closed to any other run.
+
+    Raises InputError when another run is writing there, or nobody can.
+    """
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+        lock = (folder / LOCK_NAME).open("w")
+    except OSError as error:
+        what = f"{folder} cannot be written: {error.strerror}"
+        raise InputError(what, hint="choose another folder with --out") from error
+    with lock:
+        try:
+            fcntl.flock(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
+        except OSError as error:
+            what = f"another flight is writing into {folder}"
+            raise InputError(what, hint="wait for it, or fly with --out") from error
+        for name in RUN_FILES:
+            (folder / name).unlink(missing_ok=True)
+        try:
+            yield
+        finally:
+            (folder / LOCK_NAME).unlink(missing_ok=True)
 
 
 def write_model(path: Path, model: BaseModel) -> None:

@@ -113,6 +113,7 @@ def _reason(reading: Structured | None, status: Status, probe: HalfCellModel) ->
         ),
         InvalidReason.OPEN_CIRCUIT: "open circuit between probe and reinforcement",
         InvalidReason.NO_SIGNAL: "the probe sent nothing",
+        InvalidReason.OFF_TARGET: "off target: the tool touched the surface too far from its point",
         InvalidReason.ABORTED: "the flight was aborted",
     }
     number = float(reading["reason"])

@@ -148,6 +148,7 @@ def _target(index: int, visit: Visit) -> Target:
         press_m=point.options.press_m,
         dwell_s=point.options.dwell_s,
         standoff_m=point.options.standoff_m,
+        off_target_m=point.options.off_target_m,
         standoff=posture_model(touch.standoff),
         contact=posture_model(touch.contact),
         expected_force_n=found.force_n,

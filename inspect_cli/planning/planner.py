@@ -47,12 +47,14 @@ def make_plan(
     surfaces: tuple[PlannedSurface, ...],
     cable_m: float,
     min_force_n: float = 0.0,
+    battery_wh: float = np.inf,
 ) -> Plan:
     """Plan the whole flight of a mission on the believed surfaces.
 
     ``cable_m`` is the length of the instrument's cable from the start, ``min_force_n`` the
-    force below which the instrument does not read. Raises InfeasibleError with one problem
-    per point that cannot be touched: its label and the physical reasons.
+    force below which the instrument does not read, ``battery_wh`` the usable energy. Raises
+    InfeasibleError with one problem per point that cannot be touched: its label and the
+    physical reasons.
     """
     scene = Scene.of(surfaces)
     standing, hover = _start_postures(mission.start, capabilities)
@@ -70,7 +72,14 @@ def make_plan(
     if problems or home is None:
         raise InfeasibleError(problems)
     itinerary = Itinerary(standing, hover, tuple(visits), home)
-    return plan_of(mission, platform_name, capabilities, surfaces, itinerary)
+    plan = plan_of(mission, platform_name, capabilities, surfaces, itinerary)
+    if plan.energy_wh > battery_wh:
+        raise InfeasibleError(
+            f"the flight takes {plan.duration_s:.0f} s and {plan.energy_wh:.0f} Wh; "
+            f"the battery holds {battery_wh:g} Wh",
+            hint="touch fewer points in one flight, dwell shorter, or start closer",
+        )
+    return plan
 
 
 def _start_postures(start: Start, capabilities: Capabilities) -> tuple[Posture, Posture]:

@@ -2,14 +2,22 @@
 
 from __future__ import annotations
 
-from typing import Annotated, Literal
+import math
+from typing import Annotated, Literal, Self
 
-from pydantic import Field
+from pydantic import AfterValidator, Field, model_validator
 
 from inspect_cli.schema.base import Name, NonNegative, Positive, Strict, Triple
 from inspect_cli.schema.geometry import Shape
 
-Quaternion = tuple[float, float, float, float]
+
+def _unit(value: tuple[float, float, float, float]) -> tuple[float, float, float, float]:
+    if abs(math.hypot(*value) - 1.0) > 1e-6:
+        raise ValueError("an attitude is a unit quaternion")
+    return value
+
+
+Quaternion = Annotated[tuple[float, float, float, float], AfterValidator(_unit)]
 LegKind = Literal["takeoff", "transit", "approach", "press", "retreat", "land"]
 
 
@@ -60,6 +68,8 @@ class Target(Strict):
     press_m: NonNegative
     dwell_s: NonNegative
     standoff_m: NonNegative
+    off_target_m: Positive = 0.03
+    """A reading taken farther than this from its point, along the surface, does not count."""
     standoff: PostureModel
     """The vehicle with its tool ``standoff_m`` from the surface."""
     contact: PostureModel
@@ -94,8 +104,8 @@ class Plan(Strict):
     platform: Name
     surfaces: tuple[PlannedSurface, ...]
     start: PostureModel
-    targets: tuple[Target, ...]
-    legs: tuple[Leg, ...]
+    targets: Annotated[tuple[Target, ...], Field(min_length=1)]
+    legs: Annotated[tuple[Leg, ...], Field(min_length=1)]
     duration_s: Positive
     energy_wh: Positive
     path_m: Positive
@@ -104,11 +114,27 @@ class Plan(Strict):
     """Longest straight distance from the start to a target that the cable has to span."""
     warnings: tuple[str, ...] = ()
 
+    @model_validator(mode="after")
+    def _legs_lead_to_targets(self) -> Self:
+        for place, target in enumerate(self.targets):
+            if target.index != place:
+                raise ValueError(f"target {place} has the index {target.index}")
+        for leg in self.legs:
+            needs_target = leg.kind in ("approach", "press", "retreat")
+            if leg.target is None and needs_target:
+                raise ValueError(f"a leg of kind {leg.kind} has no target")
+            if leg.target is not None and not 0 <= leg.target < len(self.targets):
+                raise ValueError(f"a leg leads to target {leg.target}, which is not there")
+        return self
+
 
 class PlanFile(Plan):
-    """``plan.json`` as ``inspect plan`` writes it: it remembers the mission it was made from."""
+    """``plan.json`` as ``inspect plan`` writes it: it remembers what it was made from."""
 
     mission_file: str
+    """Path of the mission, relative to the plan's folder."""
+    inputs_sha256: str
+    """Of the mission and the platform; a plan does not fly when either has changed."""
 
     def plan(self) -> Plan:
         """The plan alone, as a log carries it."""

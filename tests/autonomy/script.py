@@ -124,6 +124,10 @@ class FakeJudge:
     """Decides after ``takes_s``."""
 
     takes_s: float = 2.0
+    aside_m: float = 0.0
+    """How far from its point the tool stands, along the surface."""
+    deep_m: float = 0.0
+    """The same across it."""
     fed: int = 0
     target: int = -1
     begun_s: float = 0.0
@@ -141,6 +145,7 @@ class FakeJudge:
         reading = Reading.create()
         reading.t_s, reading.target, reading.valid = t_s, float(self.target), 1.0
         reading.reason = float(InvalidReason.NONE)
+        reading.p_WT[:] = [2.0 + self.deep_m, self.target + self.aside_m, 1.0]
         return reading
 
 

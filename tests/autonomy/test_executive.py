@@ -119,7 +119,8 @@ def test_a_press_ends_when_the_judge_has_decided_and_not_before(script: Script) 
     script.run_to(Mode.PRESS)
     script.judges[-1].takes_s = 7.0
     took = script.run_to(Mode.RETREAT)
-    assert took == pytest.approx(7.0, abs=SLACK_S)
+    # The dwell begins when the set-point is where it shall be.
+    assert took == pytest.approx(script.guidance.takes_s + 7.0, abs=SLACK_S)
     (reading,) = script.executive.readings
     assert (reading.target, reading.t_s) == (0.0, pytest.approx(script.t_s, abs=SLACK_S))
 
@@ -140,7 +141,21 @@ def test_surfaces_steer_only_near_them(script: Script) -> None:
         script.step()
         if script.executive.watches_surface:
             steered.add(script.mode)
-    assert steered == set(NEAR)
+    assert steered == {Mode.APPROACH, Mode.PRESS}
+
+
+@pytest.mark.parametrize(("aside_m", "deep_m", "counts"), [(0.029, 0.3, True), (0.031, 0.0, False)])
+def test_a_reading_off_its_point_does_not_count(
+    script: Script, aside_m: float, deep_m: float, counts: bool
+) -> None:
+    script.run_to(Mode.PRESS)
+    script.judges[-1].aside_m, script.judges[-1].deep_m = aside_m, deep_m
+    script.run_to(Mode.RETREAT)
+    (reading,) = script.executive.readings
+    assert reading.valid == float(counts)
+    assert np.isnan(reading.potential) == (not counts)
+    reason = InvalidReason.NONE if counts else InvalidReason.OFF_TARGET
+    assert reading.reason == float(reason)
 
 
 def test_it_leans_on_the_ground_before_its_motors_stop(script: Script) -> None:

@@ -91,6 +91,18 @@ def test_a_press_may_lie_behind_the_surface() -> None:
     assert ROWS[POSITION].violated(inputs(position_error_m=1.3, press_m=0.6))
 
 
+def test_a_surface_ahead_must_leave_the_way_to_a_stop() -> None:
+    """0.2 s of reaction and braking at 1 m/s²: 0.1 m + 0.125 m from 0.5 m/s; none sideways."""
+    ahead = inputs(least_distance_m=0.1, surface_distance_m=0.32)
+    ahead.surface_n_W[:] = [-1.0, 0.0, 0.0]
+    for velocity, violated in (([0.5, 0.0, 0.0], True), ([0.49, 0.0, 0.0], False),
+                               ([0.0, 0.5, 0.0], False), ([-0.5, 0.0, 0.0], False)):  # fmt: skip
+        ahead.estimate.v_WB_W[:] = velocity
+        ahead.surface_seen_s = 10.0
+        ahead.refresh(10.0)
+        assert ROWS[NEAR].violated(ahead) == violated
+
+
 def test_on_the_ground_and_after_an_abort_nothing_is_watched() -> None:
     assert not FLYING & {Mode.IDLE, Mode.LANDED, Mode.HOVER}
 

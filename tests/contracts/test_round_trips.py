@@ -48,7 +48,7 @@ def run(tmp_path_factory: pytest.TempPathFactory) -> SimpleNamespace:
 def test_a_plan_is_read_as_it_was_made(run: SimpleNamespace) -> None:
     saved = PlanFile.model_validate_json(run.planned.file.read_bytes())
     assert saved.plan() == run.planned.plan
-    assert Path(saved.mission_file) == run.mission
+    assert (run.planned.file.parent / saved.mission_file).resolve() == run.mission.resolve()
 
 
 def test_a_saved_plan_flies_like_its_mission(run: SimpleNamespace, tmp_path: Path) -> None:

@@ -88,7 +88,9 @@ def test_the_wrist_finds_the_lean_that_nobody_planned(flown):
 
 def test_the_wrist_follows_its_reference_and_the_body_stays_level(flown):
     state, reference, command = flown.rows.values()
-    assert np.array_equal(command["joint_angle"], reference["arm_angle"])
+    # Of the ticks of the log, every second is one of the control's; there the two agree.
+    controlled = np.rint(1e3 * command["t_s"]).astype(int) % 4 == 0
+    assert np.array_equal(command["joint_angle"][controlled], reference["arm_angle"][controlled])
     # A servo lag of 20 ms at no more than 0.7 rad/s, and the sag under the tool's weight.
     assert np.abs(state["joint_angle"] - reference["arm_angle"]).max() < 0.7 * 0.02 + 0.01
     tilt = np.hypot(state["q_WB"][:, 1], state["q_WB"][:, 2])
