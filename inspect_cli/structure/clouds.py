@@ -2,16 +2,28 @@
 
 from __future__ import annotations
 
+import struct
 from collections.abc import Callable
 from pathlib import Path
 
 import numpy as np
 
 from inspect_cli.spatial.types import Points
-from inspect_cli.structure.files import ReadPoints, open3d, refused, require_file, truncated
+from inspect_cli.structure.files import (
+    ReadPoints,
+    muted_stderr,
+    open3d,
+    refused,
+    require_file,
+    truncated,
+)
 from inspect_cli.structure.headers import whole_pcd, whole_ply
 
 AGAIN = "export or copy it again"
+DAMAGED = (RuntimeError, ValueError, KeyError, OverflowError, MemoryError, EOFError, struct.error)
+"""What readers of binary formats raise where a header or the bytes make no sense."""
+LAS_CHUNK = 1_000_000
+"""Points that are read at once, so that a wrong count in a header allocates no more."""
 
 
 def read_cloud(path: Path) -> ReadPoints:
@@ -55,9 +67,11 @@ def _read_pcd(path: Path) -> Points:
 
 
 def _read_by_open3d(path: Path) -> Points:
-    cloud = open3d().io.read_point_cloud(
-        str(path), remove_nan_points=False, remove_infinite_points=False
-    )
+    module = open3d()
+    with muted_stderr():
+        cloud = module.io.read_point_cloud(
+            str(path), remove_nan_points=False, remove_infinite_points=False
+        )
     points: Points = np.array(cloud.points)
     return points
 
@@ -108,14 +122,24 @@ def _is_number(word: str) -> bool:
 def _read_las(path: Path) -> Points:
     import laspy
 
+    chunks = [np.empty((0, 3))]
     try:
-        las = laspy.read(path)
-    except (laspy.errors.LaspyException, RuntimeError, ValueError) as error:
+        with laspy.open(path) as reader:
+            header = reader.header
+            promised = header.point_count
+            if not header.are_points_compressed:
+                room = path.stat().st_size - header.offset_to_point_data
+                held = max(room, 0) // header.point_format.size
+                if held < promised:
+                    raise truncated(path, f"{promised} points", str(held))
+            for chunk in reader.chunk_iterator(LAS_CHUNK):
+                chunks.append(np.column_stack([chunk.x, chunk.y, chunk.z]))
+    except (laspy.errors.LaspyException, *DAMAGED) as error:
         # The decompressor of LAZ raises RuntimeErrors of its own.
         raise refused(path, f"the file is truncated or damaged: {error}", AGAIN) from error
-    if len(las.points) != las.header.point_count:
-        raise truncated(path, f"{las.header.point_count} points", str(len(las.points)))
-    points: Points = np.asarray(las.xyz)
+    points: Points = np.vstack(chunks)
+    if len(points) != promised:
+        raise truncated(path, f"{promised} points", str(len(points)))
     return points
 
 
@@ -130,7 +154,7 @@ def _read_e57(path: Path) -> Points:
             scan = file.read_scan(index, ignore_missing_fields=True)
             scans.append(np.column_stack([scan[f"cartesian{axis}"] for axis in "XYZ"]))
         file.close()
-    except (pye57.libe57.E57Exception, ValueError, KeyError) as error:
+    except (pye57.libe57.E57Exception, *DAMAGED) as error:
         reason = str(error).partition("\n")[0]
         raise refused(path, f"the file is truncated or damaged: {reason}", AGAIN) from error
     return np.vstack(scans)

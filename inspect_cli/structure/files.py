@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection
+import os
+from collections.abc import Collection, Iterator
+from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -47,6 +49,26 @@ def truncated(path: Path, promised: str, found: str) -> GeometryError:
         f"the file is truncated: its header promises {promised}, it holds {found}",
         "export or copy it again",
     )
+
+
+@contextmanager
+def muted_stderr() -> Iterator[None]:
+    """Nothing reaches the process's standard error meanwhile, not from C libraries either.
+
+    The PLY parser within Open3D writes there by itself; what it minds is refused by name anyway.
+    """
+    try:
+        kept = os.dup(2)
+    except OSError:  # there is no standard error
+        yield
+        return
+    try:
+        with open(os.devnull, "wb") as nowhere:
+            os.dup2(nowhere.fileno(), 2)
+        yield
+    finally:
+        os.dup2(kept, 2)
+        os.close(kept)
 
 
 def open3d() -> Any:

@@ -20,6 +20,8 @@ PLY_SIZES = {
     "int": 4, "uint": 4, "int32": 4, "uint32": 4, "float": 4, "float32": 4,
     "double": 8, "float64": 8,
 }  # fmt: skip
+MOST_LZF_GAIN = 88
+"""LZF writes up to 264 equal bytes as 3 (liblzf), so no PCD file holds more per byte."""
 STL_HEAD, STL_FACET = 84, 50
 """Bytes before the first facet and of each facet of a binary STL."""
 
@@ -137,6 +139,8 @@ def whole_pcd(path: Path) -> PcdFile:
     least = count * row
     if kind == "binary_compressed":
         least = 8 + struct.unpack_from("<I", body)[0] if len(body) >= 8 else 8
+        if len(body) >= least and count * row > MOST_LZF_GAIN * least:
+            raise truncated(path, f"{count} points", f"{least} compressed bytes")
     if len(body) < least:
         raise truncated(path, f"{count} points in {least} bytes", f"{len(body)} bytes")
     return PcdFile(columns, None)

@@ -7,7 +7,14 @@ from pathlib import Path
 import numpy as np
 
 from inspect_cli.spatial.types import Points, Vector
-from inspect_cli.structure.files import ReadPoints, open3d, refused, require_file, truncated
+from inspect_cli.structure.files import (
+    ReadPoints,
+    muted_stderr,
+    open3d,
+    refused,
+    require_file,
+    truncated,
+)
 from inspect_cli.structure.headers import require_whole_stl, whole_ply
 
 SUFFIXES = (".stl", ".obj", ".ply")
@@ -29,7 +36,9 @@ def read_mesh(path: Path, samples: int, rng: np.random.Generator) -> ReadPoints:
         promised = whole_ply(path).count("face")
         if promised == 0:
             raise _without_faces(path)
-    mesh = open3d().io.read_triangle_mesh(str(path))
+    module = open3d()
+    with muted_stderr():
+        mesh = module.io.read_triangle_mesh(str(path))
     vertices, triangles = np.asarray(mesh.vertices), np.asarray(mesh.triangles)
     if len(triangles) == 0:
         raise _without_faces(path)

@@ -22,6 +22,10 @@ from inspect_cli.structure.patches import bounded_shape
 FIT_SEED = 20_251
 """Fits are part of the plan and do not depend on a flight's seed."""
 MESH_SAMPLES = 20_000
+FARTHEST_M = 1_000.0
+"""A surface farther from the start than this stands in other coordinates than the mission."""
+MOST_VOXELS = 1e9
+"""Along an edge of the cloud; Open3D counts them in 32-bit integers."""
 
 
 def believed_surfaces(mission: Mission, root: Path) -> tuple[PlannedSurface, ...]:
@@ -60,6 +64,7 @@ def believed_surface(entry: StructureSurface, root: Path, start_W: Vector) -> Pl
     points, history = _prepared(read, given)
     fit = fit_primitive(points, given.fit, given.options.inlier_m, rng)
     shape = bounded_shape(fit, points, start_W, given.options.side)
+    _require_near(points[fit.used], start_W)
     return PlannedSurface(
         name=entry.name, shape=shape, source=f"{source}: {history}", fit=fit_report(fit)
     )
@@ -116,8 +121,27 @@ def _cropped(points: Points, crop: CropBox) -> Points:
     return kept
 
 
+def _require_near(points: Points, start_W: Vector) -> None:
+    """GeometryError where a surface's points lie farther from the start than anything flies."""
+    middle = np.median(points, axis=0)
+    away_m = float(np.linalg.norm(middle - start_W))
+    if away_m > FARTHEST_M:
+        raise GeometryError(
+            f"the surface lies {away_m / 1e3:.3g} km from the start, "
+            f"about {np.round(middle, 1).tolist()}",
+            hint="a geo-referenced scan is brought into the mission's world by 'placed', "
+            f"e.g. placed: {{translate_m: {np.round(-middle).tolist()}}}",
+        )
+
+
 def _thinned(points: Points, voxel_m: float) -> Points:
     """One point, the mean, per occupied voxel."""
+    extent_m = float(np.ptp(points, axis=0).max())
+    if extent_m > MOST_VOXELS * voxel_m:
+        raise GeometryError(
+            f"options.voxel_m {voxel_m:g} is too small for points that reach over {extent_m:.3g} m",
+            hint="a voxel of 0.005 to 0.05 m suits a scan of a structure; 0 keeps every point",
+        )
     module = open3d()
     cloud = module.geometry.PointCloud(module.utility.Vector3dVector(points))
     return np.array(cloud.voxel_down_sample(voxel_m).points)

@@ -168,3 +168,25 @@ def test_pcd_with_more_compressed_bytes_than_there_are(tmp_path: Path) -> None:
     path.write_bytes(head[0] + head[1] + struct.pack("<II", 5000, 9600) + b"\0" * 100)
     with pytest.raises(GeometryError, match="truncated"):
         read_cloud(path)
+
+
+@pytest.mark.parametrize("name", ["scan.las", "scan.laz"])
+def test_las_that_promises_more_points_than_fit_is_refused(name: str, tmp_path: Path) -> None:
+    path = tmp_path / name
+    WRITERS[name](path, POINTS)
+    data = bytearray(path.read_bytes())
+    struct.pack_into("<I", data, 107, 4_000_000_000)  # legacy count, LAS 1.0 to 1.3
+    path.write_bytes(bytes(data))
+    with pytest.raises(GeometryError, match=r"truncated") as caught:
+        read_cloud(path)
+    assert name in str(caught.value)
+
+
+def test_pcd_that_promises_more_points_than_could_be_compressed(tmp_path: Path) -> None:
+    path = tmp_path / "a.pcd"
+    write_pcd(path, POINTS, "binary_compressed")
+    data = path.read_bytes().replace(b"POINTS %d" % len(POINTS), b"POINTS 4000000000")
+    assert b"4000000000" in data
+    path.write_bytes(data)
+    with pytest.raises(GeometryError, match=r"truncated.*4000000000 points"):
+        read_cloud(path)

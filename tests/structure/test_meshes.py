@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import struct
 from pathlib import Path
 
@@ -129,3 +130,15 @@ def test_missing_empty_and_foreign_files_are_refused(tmp_path: Path) -> None:
     (tmp_path / "wall.step").write_text("x")
     with pytest.raises(GeometryError, match=r"\.stl \.obj \.ply"):
         read_mesh(tmp_path / "wall.step", 10, rng)
+
+
+def test_the_parser_of_ply_files_stays_silent(
+    tmp_path: Path, capfd: pytest.CaptureFixture[str]
+) -> None:
+    path = tmp_path / "wall.ply"
+    write_ply(path)
+    path.write_text(path.read_text().replace("3 0 2 3", "3 0 x 3"))
+    with pytest.raises(GeometryError, match=r"wall\.ply"):
+        read_mesh(path, 10, np.random.default_rng(0))
+    os.write(2, b"heard again")
+    assert capfd.readouterr().err == "heard again"

@@ -253,3 +253,25 @@ def test_spans_by_hand() -> None:
     assert width == pytest.approx(np.radians(40.0), rel=0.01)
     assert np.cos(middle) == pytest.approx(1.0, abs=1e-4)
     assert shortest_arc(np.linspace(0.0, 6.28, 500), 0.99)[1] == pytest.approx(2.0 * np.pi)
+
+
+def test_a_voxel_too_small_for_the_cloud_is_refused(tmp_path: Path, mission_on: MissionOn) -> None:
+    save(tmp_path / "wall.csv", WALL)
+    given = SurfaceSource(cloud="wall.csv", options=FitOptions(voxel_m=1.0e-9))
+    with pytest.raises(GeometryError, match=r"structure 'wall'.*voxel_m 1e-09 is too small"):
+        believed_surfaces(mission_on(wall=given), tmp_path)
+
+
+def test_a_geo_referenced_scan_is_refused_until_it_is_placed(
+    tmp_path: Path, mission_on: MissionOn
+) -> None:
+    away = np.array([465_000.0, 5_247_000.0, 400.0])
+    cloud = noisy_cloud(WALL, 6000, 0.002, 0.1, np.random.default_rng(0))
+    np.savetxt(tmp_path / "wall.csv", cloud + away, fmt="%.6f", delimiter=",")
+    with pytest.raises(GeometryError, match=r"km from the start") as caught:
+        believed_surfaces(mission_on(wall=SurfaceSource(cloud="wall.csv")), tmp_path)
+    assert "placed: {translate_m: [-465002.0, -5247000.0, -401.0]}" in str(caught.value)
+    back = Displacement(translate_m=(-away[0], -away[1], -away[2]))
+    given = SurfaceSource(cloud="wall.csv", placed=back)
+    (believed,) = believed_surfaces(mission_on(wall=given), tmp_path)
+    np.testing.assert_allclose(believed.shape.center_m, [2.0, 0.4, 1.2], atol=0.02)
