@@ -41,7 +41,7 @@ Json = Annotated[bool, typer.Option("--json", help="Print one JSON object on std
 Out = Annotated[Path | None, typer.Option(metavar="DIR", help="Write here instead of in reports/.")]
 Platform = Annotated[
     Path | None,
-    typer.Option(metavar="FILE", help="A platform file instead of the one the mission names."),
+    typer.Option(metavar="NAME|FILE", help="A platform instead of the one the mission names."),
 ]
 
 

@@ -7,7 +7,10 @@ stand in and must stay inside the campaign.
 
 from __future__ import annotations
 
+import difflib
 from pathlib import Path
+
+NEAR_FILES, NEAR = 3, 0.75
 
 FOLDERS = ("missions", "platforms", "reports")
 
@@ -47,6 +50,18 @@ def inside(root: Path, folder: Path, relative: str) -> Path | None:
     except (OSError, ValueError, RuntimeError):  # a zero byte, a loop of symlinks
         return None
     return target if target.is_relative_to(root.resolve()) else None
+
+
+def advice_for_absent(path: Path) -> str:
+    """What to say of a file that is not there: those of its folder with nearly its name."""
+    folder = path.parent
+    if not folder.is_dir():
+        return f"there is no folder {folder}"
+    alike = sorted(file.name for file in folder.glob(f"*{path.suffix}") if is_file(file))
+    near = difflib.get_close_matches(path.name, alike, n=NEAR_FILES, cutoff=NEAR)
+    if not near:
+        return f"nothing in {folder} has a name like it"
+    return f"did you mean {' or '.join(str(folder / name) for name in near)}?"
 
 
 def is_file(path: Path) -> bool:

@@ -13,7 +13,7 @@ from typing import TypeVar
 from pydantic import BaseModel, ValidationError
 
 from inspect_cli.errors import Location, Problem, SchemaError
-from inspect_cli.schema.campaign import campaign_root, inside, platform_files
+from inspect_cli.schema.campaign import campaign_root, inside, is_file, platform_files
 from inspect_cli.schema.explain import problems_of, shown, suggest
 from inspect_cli.schema.mission import Mission, MissionFile
 from inspect_cli.schema.nodes import Node, merged, without
@@ -47,7 +47,8 @@ def load_mission(path: Path, platform: Path | None = None) -> Loaded:
 
     Args:
         path: the mission file.
-        platform: a platform file to fly instead of the one that the mission names.
+        platform: to fly instead of the one that the mission names: a platform's name, as the
+            mission would write it, or the path of its file.
 
     Raises:
         SchemaError: with every problem that was found in the files.
@@ -57,7 +58,8 @@ def load_mission(path: Path, platform: Path | None = None) -> Loaded:
     problems += dangling_surfaces(node)
     file = _validated(MissionFile, node, problems)
 
-    platform_file = platform or _platform_file(node, root, problems)
+    asked = _asked_platform(platform, root, problems) if platform else None
+    platform_file = asked if platform else _platform_file(node, root, problems)
     model: PlatformBase | None = None
     if platform_file:
         try:
@@ -138,11 +140,22 @@ def _platform_file(node: Node, root: Path, problems: list[Problem]) -> Path | No
         problem = file_problem(name, "platform", target)
         problems += [problem] if problem else []
         return None if problem else target
+    return _named_platform(name.value, root, name.at("platform"), problems)
+
+
+def _asked_platform(platform: Path, root: Path, problems: list[Problem]) -> Path | None:
+    is_path = platform.name != str(platform) or platform.suffix == ".yaml" or is_file(platform)
+    return platform if is_path else _named_platform(str(platform), root, None, problems)
+
+
+def _named_platform(
+    name: str, root: Path, where: Location | None, problems: list[Problem]
+) -> Path | None:
     known = platform_files(root)
-    if name.value not in known:
-        what = f"no platform is named '{shown(name.value)}'"
-        problems.append(Problem(what, name.at("platform"), suggest(name.value, list(known))))
-    return known.get(name.value)
+    if name not in known:
+        what = f"no platform is named '{shown(name)}'"
+        problems.append(Problem(what, where, suggest(name, list(known))))
+    return known.get(name)
 
 
 def _no_profile(name: str, node: Node, platform: PlatformBase) -> Problem:

@@ -15,6 +15,7 @@ from pathlib import Path
 import yaml
 
 from inspect_cli.errors import Location, Problem, SchemaError
+from inspect_cli.schema.campaign import advice_for_absent
 from inspect_cli.schema.nodes import Node, Scalar, Step, join
 
 MAX_BYTES = 1_000_000
@@ -35,6 +36,9 @@ def read_yaml(path: Path) -> Node:
     try:
         with path.open("rb") as stream:
             data = stream.read(MAX_BYTES + 1)
+    except FileNotFoundError as error:
+        hint = advice_for_absent(path)
+        raise SchemaError(Problem("there is no such file", Location(file), hint)) from error
     except OSError as error:
         reason = error.strerror or str(error)
         raise SchemaError(Problem(f"cannot be read: {reason}", Location(file))) from error

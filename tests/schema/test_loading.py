@@ -289,6 +289,24 @@ def test_a_platform_given_by_path_or_by_option(campaign: Path) -> None:
     assert other.platform.title.startswith("other ")
 
 
+def test_a_platform_given_by_name_in_the_option(campaign: Path) -> None:
+    mission = campaign / "missions" / "m.yaml"
+    builtin = load_mission(mission, Path("tilt_rotor_hexarotor_30"))
+    assert builtin.platform_file == builtin_root() / "platforms" / "tilt_rotor_hexarotor_30.yaml"
+    text = (builtin_root() / "platforms" / "tilt_rotor_hexarotor.yaml").read_text()
+    own = campaign / "platforms" / "heavy.yaml"
+    own.write_text(text.replace("name: tilt_rotor_hexarotor", "name: heavy"))
+    assert load_mission(mission, Path("heavy")).platform.name == "heavy"
+    with pytest.raises(SchemaError) as caught:
+        load_mission(mission, Path("heavi"))
+    assert str(caught.value) == (
+        "no platform is named 'heavi'\n    did you mean 'heavy'? "
+        "choices: tilt_rotor_hexarotor, tilt_rotor_hexarotor_30, heavy"
+    )
+    with pytest.raises(SchemaError, match=r"heavi\.yaml: there is no such file\n.*heavy\.yaml\?"):
+        load_mission(mission, campaign / "platforms" / "heavi.yaml")
+
+
 def test_problems_of_mission_and_platform_come_together(campaign: Path) -> None:
     (campaign / "platforms" / "tilt_rotor_hexarotor.yaml").write_text("kind: tilt_rotr\n")
     mission = campaign / "missions" / "m.yaml"

@@ -135,8 +135,16 @@ def test_an_alias_repeats_its_value_with_the_place_of_the_anchor() -> None:
 
 
 def test_a_file_that_is_not_there_is_named(tmp_path: Path) -> None:
-    with pytest.raises(SchemaError, match=r"nowhere\.yaml: cannot be read: No such file"):
-        read_yaml(tmp_path / "nowhere.yaml")
+    for name in ("nine_point_half_cell.yaml", "soffit.yaml", "nine_point_half_cell.ply"):
+        (tmp_path / name).write_text("")
+    for name, hint in (
+        ("nine_point_halfcell.yaml", f"did you mean {tmp_path}/nine_point_half_cell.yaml?"),
+        ("qqqq.yaml", f"nothing in {tmp_path} has a name like it"),
+        ("qqqq/soffit.yaml", f"there is no folder {tmp_path}/qqqq"),
+    ):
+        with pytest.raises(SchemaError) as caught:
+            read_yaml(tmp_path / name)
+        assert str(caught.value) == f"{tmp_path}/{name}: there is no such file\n    {hint}"
     with pytest.raises(SchemaError, match="cannot be read: Is a directory"):
         read_yaml(tmp_path)
 
