@@ -7,13 +7,14 @@ of ``MODES``: what starts it and what ends it.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Literal, Protocol
+from typing import Literal
 
 import numpy as np
 
 from inspect_cli.autonomy.failsafe import Action, FlightInputs, Watch
+from inspect_cli.autonomy.roles import Guidance, Judge
 from inspect_cli.interfaces import Posture
 from inspect_cli.records import (
     Estimate,
@@ -21,7 +22,6 @@ from inspect_cli.records import (
     Mode,
     Probe,
     Reading,
-    Reference,
     SurfaceEstimate,
 )
 from inspect_cli.schema.plan import Leg, Plan, PostureModel, Target
@@ -40,59 +40,6 @@ TOUCHDOWN_M = 0.15
 """How far below standing height the vehicle leans on the ground before its motors stop."""
 BEFORE_CONTACT_M = 0.01
 """The approach ends this far from the surface; the press goes through it."""
-
-
-class Guidance(Protocol):
-    """What the executive hands its wishes to; see ``guidance.pursuit``."""
-
-    @property
-    def reference(self) -> Reference:
-        """The reference that is being written."""
-        ...
-
-    def go_to(self, t_s: float, postures: Sequence[Posture], speed_mps: float) -> None:
-        """Pass postures at rest, one after the other."""
-        ...
-
-    def approach(self, t_s: float, target: Target, depth_m: float, speed_mps: float) -> None:
-        """Aim the tool ``depth_m`` behind the target's surface (negative: in front of it)."""
-        ...
-
-    def observe(self, t_s: float, surface: SurfaceEstimate) -> None:
-        """Correct the aim by what the camera sees."""
-        ...
-
-    def contradicts(self, target: Target, surface: SurfaceEstimate) -> bool:
-        """Whether the surface cannot be the one that was planned at the target."""
-        ...
-
-    def hold(self, t_s: float) -> None:
-        """Stop smoothly."""
-        ...
-
-    def arrived(self, t_s: float) -> bool:
-        """Whether the reference has come to rest at its goal."""
-        ...
-
-
-class Judge(Protocol):
-    """Decides whether the probe's samples at a point make a reading; see ``sensing.reading``."""
-
-    def begin(self, target: int, t_s: float) -> None:
-        """A new point."""
-        ...
-
-    def feed(self, probe: Probe, p_WT: Vector) -> None:
-        """Another sample, with the believed position of the tip."""
-        ...
-
-    def done(self, t_s: float) -> bool:
-        """Whether the point is decided."""
-        ...
-
-    def finish(self, t_s: float) -> Reading:
-        """The verdict."""
-        ...
 
 
 @dataclass(frozen=True)
