@@ -43,7 +43,7 @@ def force_figures(log: RunLog, plan: Plan, timeline: Timeline) -> Iterator[Figur
         "observer's force along the planned normal, drawn near a surface; it holds all other "
         "external force too.",
         "Normal contact force over time: true, by the probe's load cell, and estimated.",
-        [Panel("normal force (N)", _normal_forces(log, plan), height_px=240)],
+        [Panel("normal force (N)", _normal_forces(log, plan), height_px=240, off_ground=True)],
         timeline,
     )
     for name, first, unit, symbol in (("force", 0, "N", "F"), ("torque", 3, "N·m", "τ")):

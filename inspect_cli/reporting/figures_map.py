@@ -22,7 +22,11 @@ from inspect_cli.schema.plan import Plan, PlannedSurface
 
 SAME_LINE_M = 1e-3
 """Planned points whose coordinate differs by less stand in one row or column."""
+LEAST_VALID_SHARE = 0.75
+"""Least share of valid readings in a grid for contours to mean something."""
 MAX_WRITTEN_VALUES = 80
+HALO = ", ".join(["0 0 2px #ffffff"] * 3)
+"""Keeps labels readable on any colour and across lines."""
 MAP_WIDTH_PX = 1000.0
 MAP_FRAME_PX = 44 + 110
 
@@ -43,9 +47,10 @@ def _map(
     scale, ends = colour_axis(everywhere), potential_range(everywhere)
     valid = [p for p in points if p.point.potential_mv is not None]
     invalid = [p for p in points if p.point.potential_mv is None]
-    grid = potential_grid(valid)
+    grid = potential_grid(points)
     traces = [] if grid is None else _contours(grid, scale, ends)
     traces += _valid_markers(valid, everywhere) + _invalid_markers(invalid)
+    traces += _labels(valid, invalid)
     (u_low, u_high), (v_low, v_high) = (_span(points, axis) for axis in (0, 1))
     height_px = MAP_WIDTH_PX * (v_high - v_low) / (u_high - u_low)
     layout: Json = {
@@ -63,7 +68,8 @@ def _map(
     }
     shown = (
         "Contours are interpolated linearly between neighbouring valid readings, "
-        f"one every {STEP_MV:g} mV; the heavy lines are the class boundaries. "
+        f"one every {STEP_MV:g} mV; the heavy lines are the class boundaries, "
+        f"{signed(ACTIVE_BELOW_MV)} and {signed(PASSIVE_ABOVE_MV)} mV. "
         if grid is not None
         else ""
     )
@@ -91,20 +97,21 @@ def _span(points: Sequence[ReadPoint], axis: int) -> tuple[float, float]:
 def potential_grid(
     points: Sequence[ReadPoint],
 ) -> tuple[list[float], list[float], list[list[float | None]]] | None:
-    """(u, v, potentials by row) if the points stand in at least two rows and two columns.
+    """(u, v, potentials by row) if the points fill a grid of at least two rows and two columns.
 
-    Nodes without a valid reading are None, and nothing is drawn across them. Points that do
-    not share rows and columns give None: a contour would be invented.
+    Nodes whose reading is invalid are None, and nothing is drawn across them. Points that leave
+    a node empty, or grids with few valid readings, give None: a contour would be invented.
     """
     places = [(p.point.uv_m, p.point.potential_mv) for p in points if p.point.uv_m is not None]
     columns = _lines([uv[0] for uv, _ in places])
     rows = _lines([uv[1] for uv, _ in places])
-    if len(columns) < 2 or len(rows) < 2 or len(columns) * len(rows) > 2 * len(places):
+    nodes = {(_nearest(rows, uv[1]), _nearest(columns, uv[0])): mv for uv, mv in places}
+    if len(columns) < 2 or len(rows) < 2 or len(nodes) < len(columns) * len(rows):
         return None
-    table: list[list[float | None]] = [[None] * len(columns) for _ in rows]
-    for uv, potential in places:
-        table[_nearest(rows, uv[1])][_nearest(columns, uv[0])] = potential
-    return columns, rows, table
+    valid = sum(potential is not None for potential in nodes.values())
+    if valid < LEAST_VALID_SHARE * len(nodes):
+        return None
+    return columns, rows, [[nodes[i, j] for j in range(len(columns))] for i in range(len(rows))]
 
 
 def _lines(values: Sequence[float]) -> list[float]:
@@ -145,8 +152,6 @@ def _contours(
             "start": ACTIVE_BELOW_MV,
             "end": PASSIVE_ABOVE_MV,
             "size": PASSIVE_ABOVE_MV - ACTIVE_BELOW_MV,
-            "showlabels": True,
-            "labelfont": {"size": 11, "color": INK},
         },
         "line": {"width": 1.6, "color": INK, "smoothing": 0},
         "showlegend": False,
@@ -155,8 +160,6 @@ def _contours(
 
 
 def _valid_markers(points: Sequence[ReadPoint], everywhere: Sequence[ReadPoint]) -> list[Json]:
-    written = len(points) <= MAX_WRITTEN_VALUES
-    sides = _text_sides(points)
     traces = [colour_bar("scatter")] if points else []
     for name, style in ASTM_STYLES.items():
         own = [p for p in points if p.point.astm_class == name]
@@ -166,9 +169,7 @@ def _valid_markers(points: Sequence[ReadPoint], everywhere: Sequence[ReadPoint])
             {
                 **_markers(own, style.symbol, 15),
                 "name": f"{style.label} (ASTM C876)",
-                "mode": "markers+text" if written else "markers",
-                "text": [_written(p) for p in own],
-                "textposition": [sides[p.point.index] for p in own],
+                "mode": "markers",
                 "marker": {
                     "symbol": style.symbol,
                     "size": 15,
@@ -199,11 +200,35 @@ def _invalid_markers(points: Sequence[ReadPoint]) -> list[Json]:
         {
             **_markers(points, style.symbol, 12),
             "name": style.label,
-            "mode": "markers+text",
-            "text": [f"<b>{words(p.point.label)}</b>" for p in points],
+            "mode": "markers",
             "customdata": [
                 words(f"{p.point.label}: no valid reading, {p.point.reason}") for p in points
             ],
+        }
+    ]
+
+
+def _labels(valid: Sequence[ReadPoint], invalid: Sequence[ReadPoint]) -> list[Json]:
+    """The labels as a trace of their own, drawn last, so that no marker covers them."""
+    written = len(valid) <= MAX_WRITTEN_VALUES
+    sides = _text_sides([*valid, *invalid])
+    labelled = [(p, _written(p)) for p in valid if written]
+    labelled += [(p, f"<b>{words(p.point.label)}</b>") for p in invalid]
+    if not labelled:
+        return []
+    return [
+        {
+            "type": "scatter",
+            "name": "labels",
+            "mode": "text",
+            "x": [p.point.uv_m[0] for p, _ in labelled if p.point.uv_m],
+            "y": [p.point.uv_m[1] for p, _ in labelled if p.point.uv_m],
+            "text": [text for _, text in labelled],
+            "textposition": [sides[p.point.index] for p, _ in labelled],
+            "textfont": {"size": 11, "color": INK, "shadow": HALO},
+            "cliponaxis": False,
+            "hoverinfo": "skip",
+            "showlegend": False,
         }
     ]
 
@@ -213,8 +238,6 @@ def _markers(points: Sequence[ReadPoint], symbol: str, size: int) -> Json:
         "type": "scatter",
         "x": [p.point.uv_m[0] for p in points if p.point.uv_m],
         "y": [p.point.uv_m[1] for p in points if p.point.uv_m],
-        "textposition": "top center",
-        "textfont": {"size": 11, "color": INK},
         "cliponaxis": False,
         "marker": {"symbol": symbol, "size": size, "color": INK, "line": {"width": 2}},
         "hovertemplate": "%{customdata}<extra></extra>",

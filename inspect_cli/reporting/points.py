@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Sequence
 from dataclasses import dataclass
 
@@ -28,10 +29,21 @@ class ReadPoint:
 
 
 def read_points(result: Result, plan: Plan) -> tuple[ReadPoint, ...]:
-    """Every point of the result that stands for a reading, in the plan's order."""
+    """Every point of the result that stands for a reading, in the order of the labels.
+
+    The plan visits points in the order of the shortest path; a reader looks for point 7 between
+    6 and 8.
+    """
     targets = {target.index: target for target in plan.targets}
     points = [ReadPoint(point, targets.get(point.index)) for point in result.points]
-    return tuple(point for point in points if point.is_reading)
+    readings = (point for point in points if point.is_reading)
+    return tuple(sorted(readings, key=lambda p: _label_order(p.point.label)))
+
+
+def _label_order(label: str) -> list[tuple[int, int, str]]:
+    """A key that sorts the digits within a label as the numbers that they are."""
+    parts = re.findall(r"[0-9]+|[^0-9]+", label)
+    return [(0, int(part), "") if part.isdecimal() else (1, 0, part) for part in parts]
 
 
 def by_surface(

@@ -33,6 +33,8 @@ from inspect_cli.reporting.summary import (
     is_simulated,
     key_figures,
     method,
+    warnings,
+    warnings_markup,
 )
 from inspect_cli.reporting.table import NOTHING, definitions
 from inspect_cli.reporting.tables import (
@@ -76,7 +78,7 @@ def report_html(log: RunLog, result: Result, plan: Plan) -> str:
     timeline = timeline_of(rows_of(log, Reference), plan)
     title = log.mission().title or result.mission
     sections = [
-        Section("summary", "Summary", _summary(log, result, plan, points)),
+        Section("summary", "Summary", _summary(log, result, points)),
         Section("survey", "Corrosion survey", _survey(log, plan, points)),
         Section("flight", "Flight", _flight(log, result, plan, points, timeline)),
         Section("structure", "Structure", fits_table(plan)),
@@ -103,15 +105,16 @@ def _header(log: RunLog, result: Result, title: str) -> Markup:
     )
 
 
-def _summary(log: RunLog, result: Result, plan: Plan, points: Sequence[ReadPoint]) -> Markup:
+def _summary(log: RunLog, result: Result, points: Sequence[ReadPoint]) -> Markup:
     checks = (
         checks_table(result.checks)
         if result.checks
         else element("p", "The mission states no acceptance.")
     )
     return joined(
-        finding_markup(finding(result, points, log.mission().expect_status)),
-        key_figures(result, plan, points),
+        warnings_markup(warnings(result, log.mission().expect_status)),
+        finding_markup(finding(points)),
+        key_figures(result, points),
         checks,
         element("h3", "What this report does not say"),
         caveats(log, points),

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from inspect_cli.log.reader import RunLog
 from inspect_cli.reporting.markup import Markup, element, joined
 from inspect_cli.reporting.points import ReadPoint
-from inspect_cli.reporting.table import NOTHING, number
+from inspect_cli.reporting.table import NOTHING, number, significant
 from inspect_cli.schema.plan import Plan
 from inspect_cli.schema.result import Result, Status
 
@@ -18,17 +18,44 @@ STATUS_WORDS = {
     "interrupted": "The log was cut off: what follows ends there.",
 }
 
+AT_REST_MPS = 0.2
+"""Above this a vehicle that should have landed is still moving."""
 
-def finding(result: Result, points: Sequence[ReadPoint], expected: Status) -> list[str]:
-    """The finding in sentences: how much is valid, what corrodes, how the flight ended."""
-    sentences = [_validity(points), *_corrosion(points)]
+
+def warnings(result: Result, expected: Status) -> list[str]:
+    """What spoils a flight whatever it read: its end, a body that touched, motion at the end."""
+    sentences = []
     if result.status != "completed":
         reason = f" Reason: {result.status_reason}." if result.status_reason else ""
         sentences.append(STATUS_WORDS[result.status] + reason)
     if expected != "completed":
         kept = "as it was" if result.status == expected else "which it was not"
         sentences.append(f"The mission expects it to be {expected}, {kept}.")
+    touch_n = _value(result, "contact.body_force_max_n")
+    if touch_n is not None and touch_n > 0.0:
+        sentences.append(f"The vehicle's body touched something: {significant(touch_n, 3)} N.")
+    end_mps = _value(result, "flight.end_speed_mps")
+    if end_mps is not None and end_mps > AT_REST_MPS:
+        sentences.append(f"The vehicle was still moving at the end: {significant(end_mps, 2)} m/s.")
     return sentences
+
+
+def warnings_markup(sentences: Sequence[str]) -> Markup:
+    """The warnings as a list that cannot be overlooked; nothing without one."""
+    if not sentences:
+        return Markup("")
+    items = (element("li", sentence) for sentence in sentences)
+    return element("ul", *items, class_="warnings", role="note", aria_label="Warnings")
+
+
+def _value(result: Result, name: str) -> float | None:
+    metric = result.metrics.get(name)
+    return metric.value if metric else None
+
+
+def finding(points: Sequence[ReadPoint]) -> list[str]:
+    """The finding in sentences: how much is valid, and what corrodes."""
+    return [_validity(points), *_corrosion(points)]
 
 
 def _validity(points: Sequence[ReadPoint]) -> str:
@@ -43,14 +70,22 @@ def _corrosion(points: Sequence[ReadPoint]) -> list[str]:
     if not read:
         return ["Without a valid reading nothing can be said about corrosion."] if points else []
     active = [point.label for point in read if point.corrosion == "active"]
-    possible = [point.label for point in read if point.corrosion == "possible"]
+    slow = [p.label for p in read if p.corrosion != "active" and p.astm_class == "active"]
+    possible = [p.label for p in read if p.corrosion == "possible" and p.astm_class != "active"]
     sentences = []
     if active:
         sentences.append(f"Active corrosion is indicated at {_points(active)}.")
+    if slow:
+        verb, them = ("is", "it") if len(slow) == 1 else ("are", "them")
+        sentences.append(
+            f"By potential alone (ASTM C876) {_points(slow)} {verb} active; "
+            f"the combined rule calls {them} possible."
+        )
     if possible:
-        also = "Corrosion is possible" if active else "No active corrosion; it is possible"
+        known = active or slow
+        also = "Corrosion is possible" if known else "No active corrosion; it is possible"
         sentences.append(f"{also} at {_points(possible)}.")
-    if not active and not possible:
+    if not (active or slow or possible):
         sentences.append("No valid reading indicates corrosion.")
     worst = min(read, key=lambda point: point.potential_mv or 0.0)
     sentences.append(
@@ -66,17 +101,17 @@ def _points(labels: Sequence[str]) -> str:
     return f"points {', '.join(labels[:-1])} and {labels[-1]}"
 
 
-def key_figures(result: Result, plan: Plan, points: Sequence[ReadPoint]) -> Markup:
+def key_figures(result: Result, points: Sequence[ReadPoint]) -> Markup:
     """The numbers that stand in the boxes under the finding."""
     read = [p.point for p in points if p.point.potential_mv is not None]
     potentials = [point.potential_mv for point in read if point.potential_mv is not None]
     passed = sum(check.verdict == "pass" for check in result.checks)
     boxes = [
         ("valid readings", f"{sum(p.point.valid for p in points)} / {len(points)}", ""),
-        ("active points", str(sum(p.corrosion == "active" for p in read)), ""),
+        ("active by the combined rule", str(sum(p.corrosion == "active" for p in read)), ""),
         ("most negative", number(min(potentials, default=None), 0), "mV CSE"),
         ("acceptance checks passed", f"{passed} / {len(result.checks)}", ""),
-        ("planned flight", number(plan.duration_s, 0), "s"),
+        ("flight time", number(_value(result, "flight.duration_s"), 0), "s"),
     ]
     return element(
         "ul",

@@ -248,9 +248,7 @@ def fits_table(plan: Plan) -> Markup:
         if fit is None:
             rows.append([surface.name, surface.shape.kind, "given", *[NOTHING] * 4])
             continue
-        deviations = [
-            f"{name} ± {significant(sd, 2)}" for name, sd in sorted(fit.parameter_sd.items())
-        ]
+        deviations = [_deviation(name, sd) for name, sd in fit.parameter_sd.items()]
         rows.append(
             [
                 surface.name,
@@ -272,6 +270,14 @@ def fits_table(plan: Plan) -> Markup:
         Column("Standard deviations of the parameters", prose=True),
     ]
     return table("Surfaces as the planner believed them.", columns, rows)
+
+
+def _deviation(parameter: str, sd: float) -> str:
+    """``offset_m`` and 1.8e-5 as "offset ± 0.018 mm"."""
+    name, _, unit = parameter.rpartition("_")
+    if unit not in ("m", "rad"):
+        return f"{parameter} ± {significant(sd, 2)}"
+    return f"{name.replace('_', ' ')} ± {significant(1e3 * sd, 2)} m{unit}"
 
 
 def events_table(log: RunLog) -> Markup:

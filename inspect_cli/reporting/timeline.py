@@ -40,7 +40,7 @@ class Timeline:
     phases: tuple[Phase, ...] = ()
     """The contacts, which are shaded."""
     off_ground_s: tuple[float, float] | None = None
-    """From leaving the ground to landing."""
+    """From the end of the take-off to the beginning of the landing."""
 
 
 @dataclass(frozen=True)
@@ -92,9 +92,19 @@ def timeline_of(reference: Structured | None, plan: Plan) -> Timeline:
     """Contacts and time off the ground, by the modes of the mission executive."""
     if reference is None:
         return Timeline()
-    times = reference["t_s"][np.isin(reference["mode"], OFF_GROUND)]
-    off_ground_s = (float(times[0]), float(times[-1])) if len(times) else None
-    return Timeline(_contact_phases(reference, plan), off_ground_s)
+    return Timeline(_contact_phases(reference, plan), _off_ground_s(reference))
+
+
+def _off_ground_s(reference: Structured) -> tuple[float, float] | None:
+    """From the end of the take-off to the landing, or the take-off if nothing came after it."""
+    for modes in (OFF_GROUND, (Mode.TAKEOFF,)):
+        rows = np.flatnonzero(np.isin(reference["mode"], modes))
+        if len(rows) == 0:
+            continue
+        down = np.isin(reference["mode"][rows[0] :], (Mode.LAND, Mode.LANDED))
+        end = rows[0] + int(np.argmax(down)) - 1 if down.any() else rows[-1]
+        return float(reference["t_s"][rows[0]]), float(reference["t_s"][end])
+    return None
 
 
 def _contact_phases(reference: Structured, plan: Plan) -> tuple[Phase, ...]:

@@ -200,3 +200,39 @@ def test_meshes_lie_on_their_surface() -> None:
             assert np.ptp(arm[:, :, 2]) == pytest.approx(2.0)
             arm = arm[:, :, :2]
         assert np.linalg.norm(arm, axis=2) == pytest.approx(distance)
+
+
+def test_error_axes_ignore_the_ground_and_what_follows_it(fly: Fly, report: Report) -> None:
+    flight = fly(1, 1)
+    state, mode = flight.rows(State), flight.rows(Reference)["mode"]
+    landed = np.flatnonzero(mode == Mode.LANDED)
+    state["p_WB"][landed, 2] += 0.15  # it leans on its gear
+    mode[landed[-20:]] = Mode.HOVER  # and is told to hover once more
+    layout = report(flight).page.figures["position-error"]["layout"]
+    assert max(np.abs(layout["yaxis3"]["range"])) < 30.0
+
+
+def test_contours_need_a_full_grid(fly: Fly, report: Report) -> None:
+    def contoured(flight: Flight) -> bool:
+        data = report(flight).page.figures["map-1"]["data"]
+        return any(t["type"] == "contour" for t in data)
+
+    corners = ((0.0, 0.0), (0.05, 0.05), (0.05, 0.0), (0.0, 0.05))
+    for count in (2, 3, 4):  # a diagonal, a triangle, the full grid
+        flight = fly(1, count)
+        places = zip(flight.plan.targets, corners, strict=False)
+        targets = tuple(t.model_copy(update={"uv_m": uv}) for t, uv in places)
+        flight.plan = flight.plan.model_copy(update={"targets": targets})
+        assert contoured(flight) == (count == 4)
+    flight = fly(3, 3)
+    for k in (0, 4, 8):
+        spoil(flight, k, InvalidReason.FORCE)
+    assert not contoured(flight)
+
+
+def test_labels_are_drawn_over_everything_else(fly: Fly, report: Report) -> None:
+    flight = fly(3, 3)
+    spoil(flight, 4, InvalidReason.FORCE)
+    labels = report(flight).page.figures["map-1"]["data"][-1]
+    assert (labels["name"], labels["mode"]) == ("labels", "text")
+    assert len(labels["text"]) == 9

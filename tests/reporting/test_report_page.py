@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 from example_flights import Flight, spoil
 from plotly.offline import get_plotlyjs
-from report_pages import Reported, decoded
+from report_pages import Page, Reported, decoded, trace
 
 from inspect_cli.metrics.corrosion import COMBINED_RULE
 from inspect_cli.metrics.evaluate import evaluate
@@ -27,6 +27,7 @@ from inspect_cli.records import (
     TrueContact,
 )
 from inspect_cli.reporting.report import report_html, write_report
+from inspect_cli.schema.result import Metric
 
 Fly = Callable[..., Flight]
 Report = Callable[[Flight], Reported]
@@ -46,6 +47,7 @@ def test_a_completed_flight_is_told_in_order(fly: Fly, report: Report) -> None:
         "completed",
         "9 of 9 readings are valid.",
         "Active corrosion is indicated at points 2 and 3.",
+        "active by the combined rule",
         "✓ pass",
         "it presses with 1.8 N",
         "✗ fail",
@@ -56,6 +58,8 @@ def test_a_completed_flight_is_told_in_order(fly: Fly, report: Report) -> None:
         COMBINED_RULE,
         "Errors of tracking and estimation.",
         "Surfaces as the planner believed them.",
+        "offset ± 0.02 mm, tilt ± 0.03 mrad",
+        "Planned duration",
         "SHA-256",
     ]
     places = [page.text.find(words) for words in wanted]
@@ -135,7 +139,7 @@ def test_what_a_user_wrote_is_text(fly: Fly, report: Report) -> None:
     assert not any("pwned" in text for text in executed)
     assert not any(tag == "b" for tag, _ in page.tags)
     # Plotly reads tags in labels, so there the text arrives with entities.
-    text = page.figures["map-1"]["data"][1]["text"][0]
+    text = trace(page.figures["map-1"], "labels")["text"][0]
     assert "<script" not in text
     assert "&lt;/script&gt;&lt;script&gt;" in text
 
@@ -238,3 +242,49 @@ def test_write_report_returns_the_page(fly: Fly, tmp_path) -> None:
     path = write_report(log, evaluate(log), tmp_path / "new" / "folder")
     assert path == tmp_path / "new" / "folder" / "report.html"
     assert sorted(p.name for p in path.parent.iterdir()) == ["readings.csv", "report.html"]
+
+
+def test_points_active_by_potential_alone_are_named(fly: Fly, report: Report) -> None:
+    flight = fly()
+    flight.rows(Reading)["resistance"] = 150.0 / 0.08  # above the combined rule's 100 Ω·m
+    text = report(flight).page.text
+    assert (
+        "By potential alone (ASTM C876) points 2 and 3 are active; "
+        "the combined rule calls them possible." in text
+    )
+    assert "No active corrosion" not in text
+    flight.rows(Reading)["potential"] = -0.25
+    text = report(flight).page.text
+    assert "By potential alone" not in text
+    assert "No active corrosion; it is possible at points 1, 2, 3" in text
+
+
+def test_a_bumped_body_and_motion_at_the_end_are_warned_of(fly: Fly, report: Report) -> None:
+    flight = fly(1, 1)
+    log, reported = flight.log(), report(flight)
+    assert not any(a.get("class") == "warnings" for _, a in reported.page.tags)
+    bad = {
+        "contact.body_force_max_n": Metric(value=263.2, unit="N"),
+        "flight.end_speed_mps": Metric(value=0.41, unit="m/s"),
+        "flight.duration_s": Metric(value=4321.4, unit="s"),
+    }
+    result = reported.result.model_copy(update={"metrics": reported.result.metrics | bad})
+    page = Page(report_html(log, result, flight.plan))
+    assert any(a.get("class") == "warnings" for _, a in page.tags)
+    assert "The vehicle's body touched something: 263 N." in page.text
+    assert "The vehicle was still moving at the end: 0.41 m/s." in page.text
+    assert "4\u202f321 sflight time" in page.text
+
+
+def test_points_stand_in_the_order_of_their_labels(fly: Fly, report: Report) -> None:
+    flight = fly(1, 12)
+    labels = [str(12 - k) for k in range(12)]
+    targets = [
+        t.model_copy(update={"label": label})
+        for t, label in zip(flight.plan.targets, labels, strict=True)
+    ]
+    flight.plan = flight.plan.model_copy(update={"targets": tuple(targets)})
+    flight.rows(Reading)["potential"] = -0.25
+    assert (
+        "possible at points 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11 and 12." in report(flight).page.text
+    )
