@@ -50,7 +50,7 @@ def force_figures(log: RunLog, plan: Plan, timeline: Timeline) -> Iterator[Figur
         yield from _drawn(
             f"wrench-{name}",
             f"External {name} about the body's origin, in the body frame: observer against truth. "
-            "The axes are scaled to the flight off the ground.",
+            "The axes are scaled to the time between take-off and landing.",
             f"Three components of the external {name} over time, estimated and true.",
             [
                 Panel(

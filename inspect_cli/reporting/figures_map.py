@@ -25,6 +25,7 @@ SAME_LINE_M = 1e-3
 LEAST_VALID_SHARE = 0.75
 """Least share of valid readings in a grid for contours to mean something."""
 MAX_WRITTEN_VALUES = 80
+MARKER_PX = 15
 HALO = ", ".join(["0 0 2px #ffffff"] * 3)
 """Keeps labels readable on any colour and across lines."""
 MAP_WIDTH_PX = 1000.0
@@ -167,12 +168,12 @@ def _valid_markers(points: Sequence[ReadPoint], everywhere: Sequence[ReadPoint])
             continue
         traces.append(
             {
-                **_markers(own, style.symbol, 15),
+                **_markers(own, style.symbol, MARKER_PX),
                 "name": f"{style.label} (ASTM C876)",
                 "mode": "markers",
                 "marker": {
                     "symbol": style.symbol,
-                    "size": 15,
+                    "size": MARKER_PX,
                     "color": colours(own, everywhere),
                     "line": {"width": 1.2, "color": INK},
                 },
@@ -209,7 +210,10 @@ def _invalid_markers(points: Sequence[ReadPoint]) -> list[Json]:
 
 
 def _labels(valid: Sequence[ReadPoint], invalid: Sequence[ReadPoint]) -> list[Json]:
-    """The labels as a trace of their own, drawn last, so that no marker covers them."""
+    """The labels as a trace of their own, drawn last, so that no marker covers them.
+
+    Its markers cannot be seen; plotly keeps a text as far from its point as the marker is large.
+    """
     written = len(valid) <= MAX_WRITTEN_VALUES
     sides = _text_sides([*valid, *invalid])
     labelled = [(p, _written(p)) for p in valid if written]
@@ -220,7 +224,8 @@ def _labels(valid: Sequence[ReadPoint], invalid: Sequence[ReadPoint]) -> list[Js
         {
             "type": "scatter",
             "name": "labels",
-            "mode": "text",
+            "mode": "markers+text",
+            "marker": {"size": MARKER_PX, "opacity": 0},
             "x": [p.point.uv_m[0] for p, _ in labelled if p.point.uv_m],
             "y": [p.point.uv_m[1] for p, _ in labelled if p.point.uv_m],
             "text": [text for _, text in labelled],

@@ -49,7 +49,7 @@ def tracking_figures(log: RunLog, timeline: Timeline) -> Iterator[Figure]:
         "position-error",
         "Position errors per axis of the world. In contact the distance to the reference is the "
         "compression of the virtual spring that makes the force; it is no tracking error. The "
-        "axes are scaled to the flight off the ground.",
+        "axes are scaled to the time between take-off and landing.",
         "Position errors along x, y and z over time.",
         _panels(_errors(log, _position_difference_mm), AXES, "mm", off_ground=True),
         timeline,
@@ -68,7 +68,7 @@ def tracking_figures(log: RunLog, timeline: Timeline) -> Iterator[Figure]:
     yield from _error_figure(
         "attitude-error",
         "Attitude errors as rotation vectors, in the frame of the body that they start from. The "
-        "axes are scaled to the flight off the ground.",
+        "axes are scaled to the time between take-off and landing.",
         "Components of the attitude error over time.",
         _panels(
             _errors(log, _attitude_difference_mrad),

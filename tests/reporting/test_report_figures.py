@@ -234,5 +234,5 @@ def test_labels_are_drawn_over_everything_else(fly: Fly, report: Report) -> None
     flight = fly(3, 3)
     spoil(flight, 4, InvalidReason.FORCE)
     labels = report(flight).page.figures["map-1"]["data"][-1]
-    assert (labels["name"], labels["mode"]) == ("labels", "text")
+    assert (labels["name"], labels["marker"]["opacity"]) == ("labels", 0)
     assert len(labels["text"]) == 9
