@@ -39,6 +39,9 @@ app = typer.Typer(
 Mission = Annotated[Path, typer.Argument(metavar="MISSION", help="The mission's YAML file.")]
 Json = Annotated[bool, typer.Option("--json", help="Print one JSON object on stdout.")]
 Out = Annotated[Path | None, typer.Option(metavar="DIR", help="Write here instead of in reports/.")]
+ReportOut = Annotated[
+    Path | None, typer.Option("--out", metavar="DIR", help="Write here instead of beside the log.")
+]
 Platform = Annotated[
     Path | None,
     typer.Option(metavar="NAME|FILE", help="A platform instead of the one the mission names."),
@@ -143,8 +146,11 @@ def fly(
 
     with _stdout_kept_clean():
         terminal.announce_compilation(shown=not as_json)
-        with terminal.flight_progress(shown=not as_json) as progress:
-            outcome = command(mission, seed=seed, platform=platform, out=out, progress=progress)
+        try:
+            with terminal.flight_progress(shown=not as_json) as progress:
+                outcome = command(mission, seed=seed, platform=platform, out=out, progress=progress)
+        except KeyboardInterrupt:
+            raise _interrupted(mission, seed, platform, out) from None
     if as_json:
         sys.stdout.write(outcome.result.model_dump_json(by_alias=True) + "\n")
     else:
@@ -155,7 +161,7 @@ def fly(
 @app.command()
 def report(
     runs: Annotated[list[Path], typer.Argument(metavar="RUN|LOG...", help="Run folders or logs.")],
-    out: Out = None,
+    out: ReportOut = None,
     as_json: Json = False,
 ) -> int:
     """Report flights: metrics, readings and an HTML page."""
@@ -227,12 +233,32 @@ def doctor(as_json: Json = False) -> int:
 @app.command()
 def schema(
     kind: Annotated[Literal["mission", "platform"], typer.Argument(help="Which file.")],
+    as_json: Annotated[bool, typer.Option("--json", help="The same: a schema is JSON.")] = False,
 ) -> int:
     """Print the JSON Schema of a file, for editors."""
     from inspect_cli.commands.schema import schema as command
 
     sys.stdout.write(command(kind))
     return EXIT_GOOD
+
+
+class _Interrupted(InspectError):
+    """The user stopped a flight."""
+
+    exit_code = EXIT_INTERRUPTED
+
+
+def _interrupted(
+    mission: Path, seed: int | None, platform: Path | None, out: Path | None
+) -> _Interrupted:
+    """Says what was kept of the flight, if it had begun."""
+    from inspect_cli.commands.interrupted import interrupted_run
+
+    folder = interrupted_run(mission, seed, platform, out)
+    if folder is None:
+        return _Interrupted("interrupted")
+    hint = f"the flown part of the log was kept; report it: inspect report {folder}"
+    return _Interrupted("interrupted", hint=hint)
 
 
 @contextmanager

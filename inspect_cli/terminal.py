@@ -1,7 +1,8 @@
 """What people read: tables, progress and problems on stderr.
 
 Colours go where the terminal has them and ``NO_COLOR`` is not set. User text is never read as
-markup.
+markup. Words are never broken: tables keep to short cells and are as wide as those, and what needs
+a sentence stands below as a line of its own.
 """
 
 from __future__ import annotations
@@ -12,6 +13,7 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from rich.box import SIMPLE_HEAD
 from rich.console import Console
 from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeElapsedColumn
 from rich.table import Table
@@ -42,15 +44,14 @@ STYLES = {
     "fail-known": UNSURE,
     "warning": UNSURE,
 }
-WIDTH_WITHOUT_TERMINAL = 120
+ANY_WIDTH = 10_000
+STILL_MPS = 0.2
+"""A vehicle that has landed is slower than this."""
 
 
-def console() -> Console:
-    """The console on stderr."""
-    made = Console(stderr=True, markup=False, emoji=False, highlight=False)
-    if not made.is_terminal and "COLUMNS" not in os.environ:
-        made.width = WIDTH_WITHOUT_TERMINAL
-    return made
+def console(width: int | None = ANY_WIDTH) -> Console:
+    """The console on stderr; it breaks no line unless it is told the terminal's width."""
+    return Console(stderr=True, markup=False, emoji=False, highlight=False, width=width)
 
 
 def print_problems(problems: Sequence[Problem]) -> None:
@@ -97,8 +98,8 @@ def print_plan(plan: Plan, file: Path) -> None:
     out.print(surfaces)
     points = _table(
         f"{plan.mission}: points",
-        *("point", "surface", "x, y, z /m", "press /m", "force /N"),
-        *("thrust margin /N", "clearance /m"),
+        *("point", "surface", "x, y, z /m", "press\n/m", "force\n/N"),
+        *("thrust\nmargin /N", "clearance\n/m"),
     )
     for target in plan.targets:
         points.add_row(
@@ -115,8 +116,7 @@ def print_plan(plan: Plan, file: Path) -> None:
         f"{plan.duration_s:.0f} s, {plan.path_m:.1f} m, {plan.energy_wh:.1f} Wh, "
         f"cable {plan.cable_m:.1f} m"
     )
-    for warning in plan.warnings:
-        out.print(Text.assemble(("warning: ", UNSURE), warning), soft_wrap=True)
+    _print_warnings(plan.warnings)
     out.print(f"plan: {_near(file)}", soft_wrap=True)
 
 
@@ -161,10 +161,9 @@ def print_regression(report: RegressReport, updated: Sequence[Path]) -> None:
 def print_diagnosis(diagnosis: Diagnosis) -> None:
     """What was examined, what was found, and how to mend what fails."""
     out = console()
-    table = _table("inspect doctor", "what", "verdict", "found")
     for finding in diagnosis.findings:
-        table.add_row(finding.what, _styled(finding.verdict), finding.found)
-    out.print(table)
+        verdict = Text(f"{finding.verdict:<8}", style=STYLES[finding.verdict])
+        out.print(Text.assemble(verdict, f"{finding.what}: {finding.found}"), soft_wrap=True)
     for finding in diagnosis.findings:
         if finding.hint:
             out.print(Text.assemble((f"{finding.what}: ", UNSURE), finding.hint), soft_wrap=True)
@@ -203,7 +202,7 @@ def regression_progress(*, shown: bool) -> Iterator[Callable[[int, int, FlightEn
 
 
 def _bar(column: TextColumn | MofNCompleteColumn, *, shown: bool) -> Progress:
-    out = console()
+    out = console(width=None)
     columns = (TextColumn("{task.description}"), BarColumn(), column, TimeElapsedColumn())
     return Progress(*columns, console=out, transient=True, disable=not (shown and out.is_terminal))
 
@@ -212,25 +211,65 @@ def _print_result(result: Result) -> None:
     out = console()
     seed = "" if result.seed is None else f", seed {result.seed}"
     why = f": {result.status_reason}" if result.status_reason else ""
-    out.print(
-        Text.assemble(f"{result.mission} on {result.platform}{seed}: ", _styled(result.status), why)
-    )
+    title = f"{result.mission} on {result.platform}{seed}: "
+    out.print(Text.assemble(title, _styled(result.status), why), soft_wrap=True)
     if result.points:
         out.print(_points_table(result.points))
+    for reason, labels in _grouped((p.reason, p.label) for p in result.points).items():
+        many = "s" if len(labels) > 1 else ""
+        text = Text.assemble((f"point{many} {', '.join(labels)}: ", BAD), reason)
+        out.print(text, soft_wrap=True)
     if result.checks:
         out.print(_checks_table(result.checks))
+    for reason, metrics in _grouped((c.reason, c.metric) for c in result.checks).items():
+        out.print(Text.assemble((f"{', '.join(metrics)}: ", UNSURE), reason), soft_wrap=True)
     valid = sum(point.valid for point in result.points)
     passed = sum(check.verdict == "pass" for check in result.checks)
     out.print(
         f"{valid} of {len(result.points)} readings valid, "
         f"{passed} of {len(result.checks)} checks passed"
     )
+    _print_warnings(_warnings(result))
+
+
+def _grouped(pairs: Iterable[tuple[str, str]]) -> dict[str, list[str]]:
+    """The names by the reason that they share; those without a reason are left out."""
+    groups: dict[str, list[str]] = {}
+    for reason, name in pairs:
+        if reason:
+            groups.setdefault(reason, []).append(name)
+    return groups
+
+
+def _warnings(result: Result) -> Iterator[str]:
+    """What nobody asked for and everybody wants to know."""
+    invalid = sum(not point.valid for point in result.points)
+    if invalid:
+        yield f"{invalid} of {len(result.points)} points have no valid reading"
+    force_n = _measured(result, "contact.body_force_max_n")
+    if force_n > 0.0:
+        yield f"the vehicle's body touched something: {force_n:.3g} N"
+    speed_mps = _measured(result, "flight.end_speed_mps")
+    if speed_mps > STILL_MPS:
+        yield f"the vehicle was still moving at the end: {speed_mps:.1f} m/s"
+
+
+def _measured(result: Result, metric: str) -> float:
+    """A metric's value, 0 where there is none."""
+    found = result.metrics.get(metric)
+    return (found.value or 0.0) if found else 0.0
+
+
+def _print_warnings(warnings: Iterable[str]) -> None:
+    out = console()
+    for warning in warnings:
+        out.print(Text.assemble(("warning: ", UNSURE), warning), soft_wrap=True)
 
 
 def _points_table(points: Sequence[PointResult]) -> Table:
     table = _table(
-        *("points", "point", "reading", "potential /mV", "resistivity /Ω·m", "force /N"),
-        *("corrosion", "why invalid"),
+        *("points", "point", "reading", "potential\n/mV", "resistivity\n/Ω·m"),
+        *("force\n/N", "corrosion"),
     )
     for point in points:
         table.add_row(
@@ -240,22 +279,20 @@ def _points_table(points: Sequence[PointResult]) -> Table:
             _number(point.resistivity_ohm_m, ".0f"),
             _number(point.probe_force_n, ".2f"),
             point.corrosion or "",
-            point.reason,
         )
     return table
 
 
 def _checks_table(checks: Sequence[Check]) -> Table:
-    table = _table("checks", "metric", "value", "unit", "asked for", "answers", "verdict", "reason")
+    table = _table("checks", "metric", "value", "asked for", "answers", "verdict")
     for check in checks:
+        unit = "" if check.unit == "1" or check.value is None else f" {check.unit}"
         table.add_row(
-            f"{check.metric} over {check.over}" if check.over else check.metric,
-            _number(check.value, ".4g"),
-            "" if check.unit == "1" else check.unit,
+            f"{check.metric}\nover {check.over}" if check.over else check.metric,
+            _number(check.value, ".4g") + unit,
             _bounds(check),
             check.ref or "",
             _styled(check.verdict),
-            check.reason,
         )
     return table
 
@@ -265,13 +302,15 @@ def _bounds(check: Check) -> str:
         return f"= {check.min:g}"
     low = "" if check.min is None else f"≥ {check.min:g}"
     high = "" if check.max is None else f"≤ {check.max:g}"
-    return " and ".join(bound for bound in (low, high) if bound)
+    return "\n".join(bound for bound in (low, high) if bound)
 
 
 def _table(title: str, *columns: str) -> Table:
-    table = Table(title=title, title_justify="left")
+    table = Table(
+        title=title, title_justify="left", box=SIMPLE_HEAD, show_edge=False, pad_edge=False
+    )
     for column in columns:
-        table.add_column(column, overflow="fold")
+        table.add_column(column, no_wrap=True)
     return table
 
 

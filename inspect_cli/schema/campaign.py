@@ -10,7 +10,7 @@ from __future__ import annotations
 import difflib
 from pathlib import Path
 
-NEAR_FILES, NEAR = 3, 0.75
+NEAR_FILES, NEAR = 3, 0.7
 
 FOLDERS = ("missions", "platforms", "reports")
 
@@ -57,11 +57,11 @@ def advice_for_absent(path: Path) -> str:
     folder = path.parent
     if not folder.is_dir():
         return f"there is no folder {folder}"
-    alike = sorted(file.name for file in folder.glob(f"*{path.suffix}") if is_file(file))
-    near = difflib.get_close_matches(path.name, alike, n=NEAR_FILES, cutoff=NEAR)
+    alike = {f.stem: f for f in sorted(folder.glob(f"*{path.suffix}")) if is_file(f)}
+    near = difflib.get_close_matches(path.stem, alike, n=NEAR_FILES, cutoff=NEAR)
     if not near:
         return f"nothing in {folder} has a name like it"
-    return f"did you mean {' or '.join(str(folder / name) for name in near)}?"
+    return f"did you mean {' or '.join(str(alike[stem]) for stem in near)}?"
 
 
 def is_file(path: Path) -> bool:

@@ -68,7 +68,38 @@ def test_version(shell: Shell) -> None:
 
 def test_schema_prints_json_on_stdout(capsys: pytest.CaptureFixture[str]) -> None:
     assert cli.run(["schema", "platform"]) == 0
-    assert json.loads(capsys.readouterr().out)["title"] == "Platform of inspect"
+    text = capsys.readouterr().out
+    assert json.loads(text)["title"] == "Platform of inspect"
+    assert cli.run(["schema", "platform", "--json"]) == 0
+    assert capsys.readouterr().out == text
+
+
+def test_every_command_takes_json(shell: Shell) -> None:
+    for command in ("init", "plan", "fly", "report", "regress", "doctor", "schema"):
+        assert "--json" in shell(command, "--help").stdout
+
+
+def test_help_says_where_a_report_goes(shell: Shell) -> None:
+    assert "Write here instead of beside the log." in shell("report", "--help").stdout
+
+
+def test_a_platform_by_name(campaign: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    mission = campaign / "missions" / "nine_point_half_cell.yaml"
+    arguments = ["plan", str(mission), "--json", "--platform"]
+    assert cli.run([*arguments, "tilt_rotor_hexarotor_30"]) == 0
+    assert json.loads(capsys.readouterr().out)["platform"] == "tilt_rotor_hexarotor_30"
+    assert cli.run([*arguments, "tilt_rotor_hexarotor_31"]) == 2
+    (problem,) = json.loads(capsys.readouterr().out)["error"]["problems"]
+    assert problem["what"] == "no platform is named 'tilt_rotor_hexarotor_31'"
+    assert "did you mean 'tilt_rotor_hexarotor_30'?" in problem["hint"]
+
+
+def test_a_missing_mission_is_answered_with_its_neighbours(
+    campaign: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert cli.run(["plan", str(campaign / "missions" / "nine_point_halfcell.yaml")]) == 2
+    near = campaign / "missions" / "nine_point_half_cell.yaml"
+    assert f"there is no such file\n    did you mean {near}?\n" in capsys.readouterr().err
 
 
 def test_completion_is_offered(shell: Shell) -> None:

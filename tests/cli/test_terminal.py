@@ -11,7 +11,7 @@ import pytest
 
 from inspect_cli import cli, terminal
 from inspect_cli.errors import Location, Problem
-from inspect_cli.schema.result import Check, PointResult, Result, Status, Verdict
+from inspect_cli.schema.result import Check, Metric, PointResult, Result, Status, Verdict
 
 POINT = PointResult(
     index=0,
@@ -86,10 +86,16 @@ def test_the_exit_code_of_a_flight(
     assert json.loads(told.out) == json.loads(made.model_dump_json(by_alias=True))
 
 
+@pytest.mark.parametrize("columns", ["20", "80", "200"])
 def test_a_flight_is_told_in_full(
-    flown: Callable[[Result], None], capsys: pytest.CaptureFixture[str], tmp_path: Path
+    flown: Callable[[Result], None],
+    capsys: pytest.CaptureFixture[str],
+    monkeypatch: pytest.MonkeyPatch,
+    tmp_path: Path,
+    columns: str,
 ) -> None:
     flown(result("completed", "fail"))
+    monkeypatch.setenv("COLUMNS", columns)
     cli.run(["fly", "m.yaml"])
     told = capsys.readouterr().err
     for text in (
@@ -101,6 +107,98 @@ def test_a_flight_is_told_in_full(
         f"next: inspect report {tmp_path / 'run'}",
     ):
         assert text in told
+
+
+def test_words_stay_whole_where_the_terminal_is_narrow(
+    flown: Callable[[Result], None],
+    capsys: pytest.CaptureFixture[str],
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    monkeypatch.setenv("COLUMNS", "40")
+    check = result("completed", "not_measured").checks[0]
+    check = check.model_copy(update={"metric": "tracking.position_rmse_x_m", "max": 2.16})
+    point = POINT.model_copy(update={"corrosion": "possible", "resistivity_ohm_m": 200.0})
+    flown(result("completed").model_copy(update={"checks": (check,), "points": (point,)}))
+    cli.run(["fly", "m.yaml"])
+    told = capsys.readouterr().err
+    for word in ("resistivity", "potential", "corrosion", "possible", check.metric, "not_measured"):
+        assert word in told
+    tables = told[told.index("points ") : told.index("0 of 1 readings")]
+    assert max(len(line) for line in tables.splitlines()) <= 80
+
+
+def test_points_that_share_a_reason_share_a_line(
+    flown: Callable[[Result], None], capsys: pytest.CaptureFixture[str]
+) -> None:
+    given = {"1": "force: too little", "2": "force: too little", "3": "", "4": "not visited"}
+    points = tuple(
+        POINT.model_copy(update={"label": label, "reason": reason, "valid": not reason})
+        for label, reason in given.items()
+    )
+    flown(result("completed").model_copy(update={"points": points}))
+    cli.run(["fly", "m.yaml"])
+    told = capsys.readouterr().err
+    assert "points 1, 2: force: too little\npoint 4: not visited\n" in told
+    assert "warning: 3 of 4 points have no valid reading\n" in told
+
+
+FORCE, SPEED = "contact.body_force_max_n", "flight.end_speed_mps"
+
+
+@pytest.mark.parametrize(
+    ("metrics", "warnings"),
+    [
+        ({}, []),
+        ({FORCE: 0.0, SPEED: 0.2}, []),
+        ({FORCE: None, SPEED: None}, []),
+        (
+            {FORCE: 263.1, SPEED: 0.61},
+            [
+                "warning: the vehicle's body touched something: 263 N",
+                "warning: the vehicle was still moving at the end: 0.6 m/s",
+            ],
+        ),
+    ],
+)
+def test_what_went_wrong_unasked_is_warned_of(
+    capsys: pytest.CaptureFixture[str],
+    tmp_path: Path,
+    metrics: dict[str, float | None],
+    warnings: list[str],
+) -> None:
+    measured = {name: Metric(value=value, unit="") for name, value in metrics.items()}
+    made = result("completed").model_copy(update={"points": (), "metrics": measured})
+    for show in (terminal.print_flight, terminal.print_report):
+        show(made, tmp_path)
+        told = capsys.readouterr().err.splitlines()
+        assert [line for line in told if line.startswith("warning")] == warnings
+
+
+def test_an_interrupted_flight_says_what_was_kept(
+    campaign: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def stopped(*arguments: object) -> None:
+        raise KeyboardInterrupt
+
+    mission = campaign / "missions" / "nine_point_half_cell.yaml"
+    folder = campaign / "reports" / "nine-point-half-cell" / "tilt_rotor_hexarotor-seed1"
+    monkeypatch.setattr("inspect_cli.commands.fly.load_mission", stopped)
+    assert cli.run(["fly", str(mission)]) == 130
+    assert capsys.readouterr().err.endswith("error: interrupted\n")  # there was nothing to keep
+    monkeypatch.undo()
+
+    monkeypatch.setattr("inspect_cli.simulation.loop.Flight.run", stopped)
+    assert cli.run(["fly", str(mission)]) == 130
+    assert capsys.readouterr().err.endswith(
+        "error: interrupted\n"
+        f"    the flown part of the log was kept; report it: inspect report {folder}\n"
+    )
+    assert cli.run(["plan", str(mission)]) == 0
+    plan = folder.parent / "tilt_rotor_hexarotor" / "plan.json"
+    capsys.readouterr()
+    assert cli.run(["fly", str(plan), "--seed", "7", "--json"]) == 130
+    (problem,) = json.loads(capsys.readouterr().out)["error"]["problems"]
+    assert problem["hint"].endswith("inspect report " + str(folder).replace("seed1", "seed7"))
 
 
 def test_a_problem_is_printed_unbroken_and_unchanged(capsys: pytest.CaptureFixture[str]) -> None:
