@@ -25,10 +25,16 @@ README = """\
     inspect plan {mission}
     inspect fly {mission}
     inspect report reports/*/*-seed*
+
+Make the references first, and commit them; from then on every flight is held against them:
+
+    inspect regress --update
     inspect regress
 
-`inspect schema mission` prints a JSON Schema for your editor. `inspect regress --update` writes
-the reference metrics into `reports/reference/`, which belongs under version control.
+The references are the metrics of each mission and seed, in `reports/reference/`, which belongs
+under version control. Renew them with `--update` when a change was meant.
+
+`inspect schema mission` prints a JSON Schema for your editor.
 """
 
 

@@ -30,6 +30,11 @@ def test_a_new_campaign_has_everything_that_its_missions_need(tmp_path: Path) ->
         assert loaded.platform_file.is_relative_to(loaded.root)
 
 
+def test_the_readme_makes_references_before_it_compares_with_them(tmp_path: Path) -> None:
+    text = (init(tmp_path / "new").folder / "README.md").read_text()
+    assert 0 < text.index("inspect regress --update\n") < text.index("inspect regress\n")
+
+
 def test_an_empty_folder_is_taken(tmp_path: Path) -> None:
     assert init(tmp_path).folder == tmp_path
 
