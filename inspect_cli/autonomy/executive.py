@@ -1,8 +1,10 @@
 """The mission executive: walks the plan's legs, mode by mode, and aborts by the failsafe table.
 
 It decides where the vehicle shall go next and when a point is done; how to get there is
-Guidance's, how to hold it is the controller's, which never learns of modes. Each mode is a row
-of ``MODES``: what starts it and what ends it.
+Guidance's, how to hold it is the controller's, which never learns of modes.
+
+    IDLE ─▶ TAKEOFF ─▶ TRANSIT ─▶ APPROACH ─▶ PRESS ─▶ RETREAT ─▶ TRANSIT … ─▶ LAND ─▶ LANDED
+    any of them while flying, by the failsafe table ─▶ HOVER, and the run ends aborted
 """
 
 from __future__ import annotations
@@ -29,7 +31,9 @@ from inspect_cli.schema.result import Status
 from inspect_cli.spatial.types import Vector
 
 SETTLE_S = 1.0
-"""On the ground before take-off, for the filter to find its biases, and after landing."""
+"""On the ground before take-off, for the filter to find its biases."""
+STAND_S = 1.5
+"""On the ground after the motors have stopped."""
 PAUSE_S = 0.2
 """At rest at the end of each stretch before the next begins."""
 SAFE_HOVER_S = 3.0
@@ -168,7 +172,7 @@ class Executive:
         """Lean on the ground, stop the motors, wait."""
         if not self._down and self._rested(t_s):
             self._down, self._since_s = True, t_s
-        return self._down and t_s - self._since_s >= SETTLE_S
+        return self._down and t_s - self._since_s >= STAND_S
 
     def _rested(self, t_s: float, for_s: float = PAUSE_S) -> bool:
         """Whether the reference has been at rest at its goal for so long."""

@@ -21,6 +21,7 @@ from inspect_cli.autonomy.executive import (
     PAUSE_S,
     SAFE_HOVER_S,
     SETTLE_S,
+    STAND_S,
     TOUCHDOWN_M,
 )
 from inspect_cli.records import InvalidReason, Mode, SurfaceEstimate
@@ -164,7 +165,7 @@ def test_it_leans_on_the_ground_before_its_motors_stop(script: Script) -> None:
     took = script.run_until(lambda: not script.executive.flying)
     assert took == pytest.approx(script.guidance.takes_s + PAUSE_S, abs=SLACK_S)
     took = script.run_until(lambda: script.executive.finished)
-    assert took == pytest.approx(SETTLE_S, abs=SLACK_S)
+    assert took == pytest.approx(STAND_S, abs=SLACK_S)
 
 
 def test_the_reference_carries_mode_and_target(script: Script) -> None:
