@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import json
 import os
+import shlex
 import sys
 from collections.abc import Iterator
 from contextlib import contextmanager, redirect_stdout
@@ -257,7 +258,9 @@ def _interrupted(
     folder = interrupted_run(mission, seed, platform, out)
     if folder is None:
         return _Interrupted("interrupted")
-    hint = f"the flown part of the log was kept; report it: inspect report {folder}"
+    hint = (
+        f"the flown part of the log was kept; report it: inspect report {shlex.quote(str(folder))}"
+    )
     return _Interrupted("interrupted", hint=hint)
 
 

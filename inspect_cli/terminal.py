@@ -8,6 +8,7 @@ a sentence stands below as a line of its own.
 from __future__ import annotations
 
 import os
+import shlex
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from contextlib import contextmanager
 from pathlib import Path
@@ -125,7 +126,7 @@ def print_flight(result: Result, folder: Path) -> None:
     _print_result(result)
     out = console()
     out.print(f"run: {_near(folder)}", soft_wrap=True)
-    out.print(f"next: inspect report {_near(folder)}", soft_wrap=True)
+    out.print(f"next: inspect report {shlex.quote(str(_near(folder)))}", soft_wrap=True)
 
 
 def print_report(result: Result, page: Path) -> None:
