@@ -143,6 +143,7 @@ def fly(
 ) -> int:
     """Fly a mission or a plan in simulation; write the log and the metrics."""
     from inspect_cli import terminal
+    from inspect_cli.commands.fly import FlightInterrupted
     from inspect_cli.commands.fly import fly as command
 
     with _stdout_kept_clean():
@@ -150,8 +151,8 @@ def fly(
         try:
             with terminal.flight_progress(shown=not as_json) as progress:
                 outcome = command(mission, seed=seed, platform=platform, out=out, progress=progress)
-        except KeyboardInterrupt:
-            raise _interrupted(mission, seed, platform, out) from None
+        except FlightInterrupted as stopped:
+            raise _interrupted(stopped.folder) from None
     if as_json:
         sys.stdout.write(outcome.result.model_dump_json(by_alias=True) + "\n")
     else:
@@ -249,18 +250,10 @@ class _Interrupted(InspectError):
     exit_code = EXIT_INTERRUPTED
 
 
-def _interrupted(
-    mission: Path, seed: int | None, platform: Path | None, out: Path | None
-) -> _Interrupted:
-    """Says what was kept of the flight, if it had begun."""
-    from inspect_cli.commands.interrupted import interrupted_run
-
-    folder = interrupted_run(mission, seed, platform, out)
-    if folder is None:
-        return _Interrupted("interrupted")
-    hint = (
-        f"the flown part of the log was kept; report it: inspect report {shlex.quote(str(folder))}"
-    )
+def _interrupted(folder: Path) -> _Interrupted:
+    """Says what was kept of the flight."""
+    report = f"inspect report {shlex.quote(str(folder))}"
+    hint = f"the flown part of the log was kept; report it: {report}"
     return _Interrupted("interrupted", hint=hint)
 
 

@@ -12,7 +12,7 @@ from typing import Protocol
 import numpy as np
 
 from inspect_cli.records import Command, Estimate, Imu, Lengths, Pose, Record, Reference, State
-from inspect_cli.spatial.types import Matrix, Points, Vector
+from inspect_cli.spatial.arrays import Matrix, Points, Vector
 
 
 @dataclass(frozen=True)

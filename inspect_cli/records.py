@@ -24,7 +24,7 @@ from typing import Any, ClassVar, Self, overload
 import numpy as np
 from numpy.typing import ArrayLike
 
-from inspect_cli.spatial.types import Structured, Vector
+from inspect_cli.spatial.arrays import Structured, Vector
 
 Lengths = Mapping[str, int]
 NO_LENGTHS: Lengths = {}

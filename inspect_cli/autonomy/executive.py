@@ -28,7 +28,7 @@ from inspect_cli.records import (
 )
 from inspect_cli.schema.plan import Leg, Plan, PostureModel, Target
 from inspect_cli.schema.result import Status
-from inspect_cli.spatial.types import Vector
+from inspect_cli.spatial.arrays import Vector
 
 SETTLE_S = 1.0
 """On the ground before take-off, for the filter to find its biases."""

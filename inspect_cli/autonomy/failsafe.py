@@ -13,7 +13,7 @@ import numpy as np
 
 from inspect_cli.compiled import kernel
 from inspect_cli.records import Estimate, Mode, Reference
-from inspect_cli.spatial.types import Structured, Vector
+from inspect_cli.spatial.arrays import Structured, Vector
 
 
 class Action(IntEnum):

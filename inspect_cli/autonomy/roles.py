@@ -8,7 +8,7 @@ from typing import Protocol
 from inspect_cli.interfaces import Posture
 from inspect_cli.records import Probe, Reading, Reference, SurfaceEstimate
 from inspect_cli.schema.plan import Target
-from inspect_cli.spatial.types import Vector
+from inspect_cli.spatial.arrays import Vector
 
 
 class Guidance(Protocol):

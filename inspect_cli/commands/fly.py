@@ -39,6 +39,14 @@ class FlyOutcome:
     ending: Ending
 
 
+class FlightInterrupted(KeyboardInterrupt):
+    """The user stopped a flight; what was flown lies in ``folder``."""
+
+    def __init__(self, folder: Path) -> None:
+        super().__init__()
+        self.folder = folder
+
+
 def fly(
     mission: Path,
     *,
@@ -87,7 +95,7 @@ def _fly(
             ending = flight.run(report)
         except KeyboardInterrupt:
             log.close("interrupted", "stopped by the user")
-            raise
+            raise FlightInterrupted(folder) from None
         log.close(ending.status, ending.reason)
     return ending
 

@@ -21,7 +21,8 @@ import numpy as np
 
 from inspect_cli.compiled import kernel
 from inspect_cli.records import Command, Estimate, Reference
-from inspect_cli.schema.platform import ControlModel, ImpedanceProfile
+from inspect_cli.schema.vehicle import ControlModel, ImpedanceProfile
+from inspect_cli.spatial.arrays import Matrix, Structured, Vector
 from inspect_cli.spatial.constants import GRAVITY_MPS2
 from inspect_cli.spatial.rotations import (
     cross,
@@ -31,7 +32,6 @@ from inspect_cli.spatial.rotations import (
     rotate_back,
     turned,
 )
-from inspect_cli.spatial.types import Matrix, Structured, Vector
 
 
 @kernel

@@ -19,7 +19,7 @@ import numpy as np
 
 from inspect_cli.compiled import kernel
 from inspect_cli.records import Command
-from inspect_cli.spatial.types import Matrix, Vector
+from inspect_cli.spatial.arrays import Matrix, Vector
 
 MIN_STEERING_THRUST_N = 0.1
 """Below this a group's direction is ill-defined and its tilt stays where it was."""

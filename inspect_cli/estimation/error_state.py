@@ -24,9 +24,9 @@ from inspect_cli.estimation.kalman import (
     take_sample,
 )
 from inspect_cli.records import Estimate, Imu, Pose
-from inspect_cli.schema.platform import ImuModel, PoseModel
+from inspect_cli.schema.vehicle import ImuModel, PoseModel
+from inspect_cli.spatial.arrays import Vector
 from inspect_cli.spatial.rotations import quaternion_normalize
-from inspect_cli.spatial.types import Vector
 
 GATE: Final = 38.258
 """A pose is rejected above this: the χ² quantile (6 degrees of freedom) of probability 1 − 1e-6."""

@@ -24,6 +24,7 @@ from typing import Final
 import numpy as np
 
 from inspect_cli.compiled import kernel
+from inspect_cli.spatial.arrays import Matrix, Structured, Vector
 from inspect_cli.spatial.constants import GRAVITY_MPS2
 from inspect_cli.spatial.rotations import (
     quaternion_conjugate,
@@ -34,7 +35,6 @@ from inspect_cli.spatial.rotations import (
     quaternion_to_matrix,
     rotate,
 )
-from inspect_cli.spatial.types import Matrix, Structured, Vector
 
 STATES: Final = 15
 MEASURED: Final = (0, 1, 2, 6, 7, 8)

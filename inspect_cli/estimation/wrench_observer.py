@@ -30,9 +30,9 @@ import numpy as np
 
 from inspect_cli.compiled import kernel
 from inspect_cli.records import Estimate
+from inspect_cli.spatial.arrays import Matrix, Vector
 from inspect_cli.spatial.constants import GRAVITY_MPS2
 from inspect_cli.spatial.rotations import cross, rotate, rotate_back
-from inspect_cli.spatial.types import Matrix, Vector
 
 
 @kernel

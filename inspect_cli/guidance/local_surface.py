@@ -14,9 +14,9 @@ import numpy as np
 
 from inspect_cli.compiled import kernel
 from inspect_cli.records import SurfaceEstimate
-from inspect_cli.schema.platform import TofModel
+from inspect_cli.schema.vehicle import TofModel
+from inspect_cli.spatial.arrays import Matrix, Points, Vector
 from inspect_cli.spatial.rotations import turned
-from inspect_cli.spatial.types import Matrix, Points, Vector
 
 MIN_POINTS = 30
 """Fewer points in A′_t are not trusted with a plane."""

@@ -7,8 +7,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from inspect_cli.interfaces import Capabilities, Posture
+from inspect_cli.spatial.arrays import Matrix, Vector
 from inspect_cli.spatial.rotations import quaternion_normalize
-from inspect_cli.spatial.types import Matrix, Vector
 
 
 @dataclass(frozen=True)

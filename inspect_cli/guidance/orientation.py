@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from inspect_cli.spatial.types import Matrix, Vector
+from inspect_cli.spatial.arrays import Matrix, Vector
 
 VERTICAL_COSINE = float(np.cos(np.radians(1.0)))
 """A tool within 1° of the vertical has no level direction to speak of: it keeps its heading."""

@@ -29,8 +29,8 @@ from inspect_cli.guidance.trajectory import (
 from inspect_cli.interfaces import Capabilities, Posture, at_origin
 from inspect_cli.records import Reference, SurfaceEstimate
 from inspect_cli.schema.plan import Target
+from inspect_cli.spatial.arrays import Matrix, Vector
 from inspect_cli.spatial.rotations import quaternion_to_matrix
-from inspect_cli.spatial.types import Matrix, Vector
 
 MAX_TILT_RAD = float(np.radians(30.0))
 MAX_SHIFT_M = 0.30

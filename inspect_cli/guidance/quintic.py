@@ -16,8 +16,8 @@ from __future__ import annotations
 import numpy as np
 
 from inspect_cli.compiled import kernel
+from inspect_cli.spatial.arrays import Matrix, Vector
 from inspect_cli.spatial.rotations import cross, quaternion_exp, quaternion_multiply, rotate
-from inspect_cli.spatial.types import Matrix, Vector
 
 SAMPLES = 24
 """Interior points at which a stretch is held against the limits; its peaks are flat enough that

@@ -27,12 +27,12 @@ from inspect_cli.guidance.quintic import (
     survey,
 )
 from inspect_cli.interfaces import Posture
+from inspect_cli.spatial.arrays import Matrix, Vector
 from inspect_cli.spatial.rotations import (
     quaternion_conjugate,
     quaternion_log,
     quaternion_multiply,
 )
-from inspect_cli.spatial.types import Matrix, Vector
 
 SHORTEST_S = 0.1
 """No stretch is shorter, however near its goal."""

@@ -27,7 +27,7 @@ from inspect_cli.log.layout import (
     record_layout,
     rows_dtype,
 )
-from inspect_cli.spatial.types import Structured
+from inspect_cli.spatial.arrays import Structured
 
 PAYLOAD = 9 + MESSAGE_HEAD
 """Bytes of a Message record in front of its data."""

@@ -25,7 +25,7 @@ from inspect_cli.log.layout import (
     tag,
     varint,
 )
-from inspect_cli.spatial.types import Points, Structured
+from inspect_cli.spatial.arrays import Points, Structured
 
 WORLD_FRAME = "W"
 Level = Literal["debug", "info", "warning", "error", "fatal"]

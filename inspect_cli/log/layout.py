@@ -25,7 +25,7 @@ from mcap.opcode import Opcode
 from numpy.typing import NDArray
 
 from inspect_cli.records import Lengths, Record
-from inspect_cli.spatial.types import Structured
+from inspect_cli.spatial.arrays import Structured
 
 Bytes = NDArray[np.uint8]
 Nanoseconds = NDArray[np.uint64]

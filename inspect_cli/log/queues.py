@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from inspect_cli.compiled import kernel
 from inspect_cli.log.layout import MESSAGE_HEAD, Bytes, MessageLayout, Nanoseconds, nanoseconds
 from inspect_cli.log.mcap_file import Block
-from inspect_cli.spatial.types import Structured
+from inspect_cli.spatial.arrays import Structured
 
 Fill: TypeAlias = Callable[[Structured, Structured, Nanoseconds], None]
 """Writes rows (n,) with their times into messages (n,) of a layout."""

@@ -23,10 +23,10 @@ from inspect_cli.log.walk import RawLog, walk
 from inspect_cli.records import CORE_RECORDS, Record
 from inspect_cli.schema.mission import Mission
 from inspect_cli.schema.plan import Plan
-from inspect_cli.schema.platform import PLATFORM_KINDS, PlatformBase
 from inspect_cli.schema.result import Status
 from inspect_cli.schema.truth import TruthModel
-from inspect_cli.spatial.types import Structured
+from inspect_cli.schema.vehicle import PLATFORM_KINDS, PlatformBase
+from inspect_cli.spatial.arrays import Structured
 
 Model = TypeVar("Model", bound=BaseModel)
 

@@ -17,8 +17,8 @@ from foxglove_schemas_protobuf.Vector3_pb2 import Vector3
 from inspect_cli.log.foxglove import WORLD_FRAME, timestamp_of
 from inspect_cli.schema.plan import Plan, PlannedSurface, Target
 from inspect_cli.schema.primitives import primitive_of
+from inspect_cli.spatial.arrays import Points
 from inspect_cli.spatial.primitives import PLANE, point_at
-from inspect_cli.spatial.types import Points
 
 CONCRETE = Color(r=0.72, g=0.72, b=0.70, a=0.6)
 PATH = Color(r=0.10, g=0.45, b=0.85, a=1.0)

@@ -26,7 +26,7 @@ from inspect_cli.log.scene import plan_scene
 from inspect_cli.records import Lengths, Record
 from inspect_cli.schema.plan import Plan
 from inspect_cli.schema.result import Status
-from inspect_cli.spatial.types import Points
+from inspect_cli.spatial.arrays import Points
 
 
 class Tap(NamedTuple):

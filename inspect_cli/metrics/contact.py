@@ -7,7 +7,7 @@ import numpy as np
 from inspect_cli.metrics.flight import TOUCH_N, Dwell, Flight, NotMeasured, largest, mean
 from inspect_cli.records import TrueContact
 from inspect_cli.schema.plan import Target
-from inspect_cli.spatial.types import Vector
+from inspect_cli.spatial.arrays import Vector
 
 LONGEST_GAP_S = 0.050
 """A loss of contact longer than this is a bounce (ledger rows A6.force, A7.slide)."""

@@ -7,7 +7,7 @@ import numpy as np
 from inspect_cli.metrics.flight import Flight, root_mean_square
 from inspect_cli.metrics.geometry import attitude_angle
 from inspect_cli.records import Estimate
-from inspect_cli.spatial.types import Points
+from inspect_cli.spatial.arrays import Points
 
 
 def position_rmse(flight: Flight) -> float:

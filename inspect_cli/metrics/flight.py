@@ -11,8 +11,8 @@ from numpy.typing import NDArray
 from inspect_cli.log.reader import RunLog
 from inspect_cli.records import Mode, Record, Reference, State
 from inspect_cli.schema.plan import Plan, Target
-from inspect_cli.schema.platform import PlatformBase
-from inspect_cli.spatial.types import Mask, Structured, Vector
+from inspect_cli.schema.vehicle import PlatformBase
+from inspect_cli.spatial.arrays import Mask, Structured, Vector
 
 TOUCH_N = 0.1
 """The tool touches where the true normal force is above this (ledger row A8.track)."""

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from inspect_cli.spatial.types import Points, Vector
+from inspect_cli.spatial.arrays import Points, Vector
 
 
 def attitude_angle(q_a: Points, q_b: Points) -> Vector:

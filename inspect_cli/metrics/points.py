@@ -13,9 +13,9 @@ from inspect_cli.metrics.corrosion import astm_class, combined_verdict, resistiv
 from inspect_cli.metrics.flight import Dwell, Flight, NotMeasured
 from inspect_cli.records import InvalidReason, Reading, TrueContact
 from inspect_cli.schema.plan import Target
-from inspect_cli.schema.platform import HalfCellModel
 from inspect_cli.schema.result import PointResult, Status
-from inspect_cli.spatial.types import Structured
+from inspect_cli.schema.vehicle import HalfCellModel
+from inspect_cli.spatial.arrays import Structured
 
 
 @dataclass(frozen=True)

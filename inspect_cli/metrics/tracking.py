@@ -6,7 +6,7 @@ import numpy as np
 
 from inspect_cli.metrics.flight import Flight, largest, root_mean_square
 from inspect_cli.metrics.geometry import attitude_angle
-from inspect_cli.spatial.types import Points, Vector
+from inspect_cli.spatial.arrays import Points, Vector
 
 CONTACT_MARGIN_S = 0.5
 """How long before and after a touch tracking is not asked for (ledger row A8.track)."""

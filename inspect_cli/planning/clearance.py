@@ -18,6 +18,7 @@ from inspect_cli.interfaces import Capabilities, Posture
 from inspect_cli.planning.timing import extent
 from inspect_cli.schema.plan import PlannedSurface
 from inspect_cli.schema.primitives import primitives_of
+from inspect_cli.spatial.arrays import Points, Structured, Vector
 from inspect_cli.spatial.primitives import patch_distance, point_at
 from inspect_cli.spatial.rotations import (
     quaternion_conjugate,
@@ -27,7 +28,6 @@ from inspect_cli.spatial.rotations import (
     quaternion_to_matrix,
     rotate,
 )
-from inspect_cli.spatial.types import Points, Structured, Vector
 
 STEP_M = 0.05
 STEP_RAD = float(np.radians(5.0))

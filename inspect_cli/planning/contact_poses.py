@@ -14,8 +14,8 @@ import numpy as np
 from inspect_cli.guidance.orientation import contact_orientation
 from inspect_cli.interfaces import Capabilities, Posture
 from inspect_cli.planning.points import ContactPoint
+from inspect_cli.spatial.arrays import Matrix, Vector
 from inspect_cli.spatial.rotations import quaternion_to_matrix
-from inspect_cli.spatial.types import Matrix, Vector
 
 
 @dataclass(frozen=True)

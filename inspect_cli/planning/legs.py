@@ -16,8 +16,8 @@ from inspect_cli.planning.timing import duration_and_energy, path_m
 from inspect_cli.schema.base import Triple
 from inspect_cli.schema.mission import FlightOptions, Mission
 from inspect_cli.schema.plan import Leg, LegKind, Plan, PlannedSurface, PostureModel, Target
+from inspect_cli.spatial.arrays import Vector
 from inspect_cli.spatial.rotations import matrix_to_quaternion
-from inspect_cli.spatial.types import Vector
 
 JOULE_PER_WH = 3600.0
 

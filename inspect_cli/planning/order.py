@@ -8,7 +8,7 @@ import numpy as np
 
 from inspect_cli.planning.points import ContactPoint
 from inspect_cli.schema.mission import ContactGrid, ContactPoints
-from inspect_cli.spatial.types import Matrix, Points, Vector
+from inspect_cli.spatial.arrays import Matrix, Points, Vector
 
 Order = Literal["boustrophedon", "rows", "given", "shortest"]
 

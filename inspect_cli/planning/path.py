@@ -11,7 +11,7 @@ import numpy as np
 from inspect_cli.interfaces import Capabilities, Posture
 from inspect_cli.planning.clearance import Scene, body_reach_m, gap_along
 from inspect_cli.planning.timing import path_m, same
-from inspect_cli.spatial.types import Vector
+from inspect_cli.spatial.arrays import Vector
 
 Way = tuple[Posture, ...]
 

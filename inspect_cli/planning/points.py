@@ -10,8 +10,8 @@ import numpy as np
 
 from inspect_cli.schema.base import Triple
 from inspect_cli.schema.mission import ContactGrid, ContactOptions, Task
+from inspect_cli.spatial.arrays import Structured, Vector
 from inspect_cli.spatial.primitives import normal_at, point_at, project
-from inspect_cli.spatial.types import Structured, Vector
 
 EDGE_M = 1e-9
 """Rounding that is forgiven at the edge of a patch."""

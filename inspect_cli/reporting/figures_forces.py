@@ -30,7 +30,7 @@ from inspect_cli.reporting.palette import (
 from inspect_cli.reporting.rows import held_at, rows_of, turned_to_world
 from inspect_cli.reporting.timeline import Line, Panel, Timeline, stacked
 from inspect_cli.schema.plan import Plan
-from inspect_cli.spatial.types import Points, Structured, Vector
+from inspect_cli.spatial.arrays import Points, Structured, Vector
 
 AT_A_SURFACE = (Mode.APPROACH, Mode.PRESS, Mode.RETREAT)
 

@@ -10,7 +10,7 @@ from inspect_cli.reporting.figure import Figure, Json, numbers, words
 from inspect_cli.reporting.palette import INK, MODE_COLOURS, MUTED, VERMILION
 from inspect_cli.reporting.rows import rows_of
 from inspect_cli.reporting.tables import QUIET_LEVELS
-from inspect_cli.spatial.types import Structured
+from inspect_cli.spatial.arrays import Structured
 
 ROW_PX = 24
 EVENTS_ROW = "EVENTS"

@@ -15,8 +15,8 @@ from inspect_cli.reporting.potential_scale import colour_axis, colour_bar, colou
 from inspect_cli.reporting.rows import rows_of
 from inspect_cli.schema.plan import Plan, PlannedSurface
 from inspect_cli.schema.primitives import primitive_of
+from inspect_cli.spatial.arrays import Points, Vector
 from inspect_cli.spatial.primitives import PLANE, point_at
-from inspect_cli.spatial.types import Points, Vector
 
 FAR_M = 1000.0
 """A diverged flight ends far away; beyond this it would hide everything else."""

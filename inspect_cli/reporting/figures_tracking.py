@@ -23,7 +23,7 @@ from inspect_cli.reporting.rows import (
     rows_of,
 )
 from inspect_cli.reporting.timeline import Line, Panel, Timeline, stacked
-from inspect_cli.spatial.types import Points, Structured, Vector
+from inspect_cli.spatial.arrays import Points, Structured, Vector
 
 Track = tuple[Vector, Points, LineStyle]
 """Times (n,), three components (n, 3), and how their lines look."""

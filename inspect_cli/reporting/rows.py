@@ -7,7 +7,7 @@ from scipy.spatial.transform import Rotation
 
 from inspect_cli.log.reader import RunLog
 from inspect_cli.records import Record
-from inspect_cli.spatial.types import Mask, Points, Structured, Vector
+from inspect_cli.spatial.arrays import Mask, Points, Structured, Vector
 
 
 def rows_of(log: RunLog, record: type[Record]) -> Structured | None:

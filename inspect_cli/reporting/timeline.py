@@ -11,7 +11,7 @@ from inspect_cli.records import Mode
 from inspect_cli.reporting.figure import Figure, Json, merged, numbers, words
 from inspect_cli.reporting.palette import CONTACT_SHADE, MUTED, LineStyle
 from inspect_cli.schema.plan import Plan
-from inspect_cli.spatial.types import Structured, Vector
+from inspect_cli.spatial.arrays import Structured, Vector
 
 BUCKETS = 800
 """Buckets per line; each keeps its smallest and largest sample. About one per pixel."""

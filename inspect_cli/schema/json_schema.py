@@ -13,8 +13,8 @@ from typing import Any, Literal
 from pydantic.json_schema import models_json_schema
 
 from inspect_cli.schema.mission import MissionFile
-from inspect_cli.schema.platform import PLATFORM_KINDS
 from inspect_cli.schema.units import split_key
+from inspect_cli.schema.vehicle import PLATFORM_KINDS
 
 REFERENCE = "#/$defs/"
 DIALECT = "https://json-schema.org/draft/2020-12/schema"

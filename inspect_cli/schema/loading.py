@@ -17,10 +17,10 @@ from inspect_cli.schema.campaign import campaign_root, inside, is_file, platform
 from inspect_cli.schema.explain import problems_of, shown, suggest
 from inspect_cli.schema.mission import Mission, MissionFile
 from inspect_cli.schema.nodes import Node, merged, without
-from inspect_cli.schema.platform import PLATFORM_KINDS, PlatformBase
 from inspect_cli.schema.references import dangling_surfaces, file_problem, resolved_files
 from inspect_cli.schema.strict_yaml import read_yaml
 from inspect_cli.schema.truth import TruthModel
+from inspect_cli.schema.vehicle import PLATFORM_KINDS, PlatformBase
 
 MAX_EXTENDS = 5
 

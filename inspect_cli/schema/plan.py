@@ -105,7 +105,7 @@ class Plan(Strict):
     surfaces: tuple[PlannedSurface, ...]
     start: PostureModel
     targets: Annotated[tuple[Target, ...], Field(min_length=1)]
-    legs: Annotated[tuple[Leg, ...], Field(min_length=1)]
+    legs: tuple[Leg, ...]
     duration_s: Positive
     energy_wh: Positive
     path_m: Positive
@@ -135,6 +135,12 @@ class PlanFile(Plan):
     """Path of the mission, relative to the plan's folder."""
     inputs_sha256: str
     """Of the mission and the platform; a plan does not fly when either has changed."""
+
+    @model_validator(mode="after")
+    def _leads_somewhere(self) -> Self:
+        if not self.legs:
+            raise ValueError("there are no legs to fly")
+        return self
 
     def plan(self) -> Plan:
         """The plan alone, as a log carries it."""

@@ -11,9 +11,9 @@ import numpy as np
 
 from inspect_cli.schema.base import Triple
 from inspect_cli.schema.geometry import CylinderShape, Displacement, PlaneShape, Shape
+from inspect_cli.spatial.arrays import Matrix, Structured, Vector
 from inspect_cli.spatial.primitives import PRIMITIVE, cylinder, plane, sphere
 from inspect_cli.spatial.rotations import roll_pitch_yaw_matrix
-from inspect_cli.spatial.types import Matrix, Structured, Vector
 
 
 def primitive_of(shape: Shape) -> Structured:

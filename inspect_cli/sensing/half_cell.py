@@ -23,7 +23,7 @@ from typing import Final
 import numpy as np
 
 from inspect_cli.records import Probe, State, TrueContact
-from inspect_cli.schema.platform import HalfCellModel
+from inspect_cli.schema.vehicle import HalfCellModel
 from inspect_cli.sensing.instrument import Noise
 
 TOUCH_N: Final = 0.05

@@ -14,11 +14,11 @@ import numpy as np
 
 from inspect_cli.compiled import kernel
 from inspect_cli.records import Imu, State
-from inspect_cli.schema.platform import ImuModel
+from inspect_cli.schema.vehicle import ImuModel
 from inspect_cli.sensing.instrument import Noise
+from inspect_cli.spatial.arrays import Vector
 from inspect_cli.spatial.constants import GRAVITY_MPS2
 from inspect_cli.spatial.rotations import rotate_back
-from inspect_cli.spatial.types import Vector
 
 
 @kernel

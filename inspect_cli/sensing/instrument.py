@@ -6,7 +6,7 @@ from typing import Final
 
 import numpy as np
 
-from inspect_cli.spatial.types import Vector
+from inspect_cli.spatial.arrays import Vector
 
 BLOCK: Final = 256
 """Samples drawn at once; one call of the generator per sample would cost more than the sample."""

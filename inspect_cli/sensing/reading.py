@@ -23,8 +23,8 @@ from statistics import fmean, median
 from typing import Final, NamedTuple
 
 from inspect_cli.records import InvalidReason, Probe, Reading
-from inspect_cli.schema.platform import HalfCellModel
-from inspect_cli.spatial.types import Vector
+from inspect_cli.schema.vehicle import HalfCellModel
+from inspect_cli.spatial.arrays import Vector
 
 FORCE_MEAN_S: Final = 0.2
 """Length of the load cell's moving mean."""

@@ -11,10 +11,10 @@ import numpy as np
 
 from inspect_cli.compiled import kernel
 from inspect_cli.records import State
-from inspect_cli.schema.platform import TofModel
+from inspect_cli.schema.vehicle import TofModel
+from inspect_cli.spatial.arrays import Matrix, Points, Structured, Vector
 from inspect_cli.spatial.primitives import raycast
 from inspect_cli.spatial.rotations import quaternion_to_matrix, rotate
-from inspect_cli.spatial.types import Matrix, Points, Structured, Vector
 
 
 def ray_directions(model: TofModel) -> Points:

@@ -6,14 +6,14 @@ import numpy as np
 
 from inspect_cli.interfaces import Sensor
 from inspect_cli.records import Probe, State, TrueContact
-from inspect_cli.schema.platform import PlatformBase
+from inspect_cli.schema.vehicle import PlatformBase
 from inspect_cli.sensing.half_cell import HalfCellProbe
 from inspect_cli.sensing.imu import ImuSensor
 from inspect_cli.sensing.pose import PoseSensor
 from inspect_cli.sensing.tof import TofCamera
 from inspect_cli.simulation.randomness import component_rng
+from inspect_cli.spatial.arrays import Structured
 from inspect_cli.spatial.primitives import plane
-from inspect_cli.spatial.types import Structured
 from inspect_cli.truth.faults import Faults, spoil
 
 

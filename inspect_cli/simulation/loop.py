@@ -27,8 +27,8 @@ from inspect_cli.simulation.instruments import Instruments
 from inspect_cli.simulation.plant import Plant
 from inspect_cli.simulation.recorder import Recorder
 from inspect_cli.simulation.world import build_world
+from inspect_cli.spatial.arrays import Matrix, Vector
 from inspect_cli.spatial.rotations import rotate
-from inspect_cli.spatial.types import Matrix, Vector
 from inspect_cli.truth.contact import ContactTruth
 from inspect_cli.truth.disturbances import Disturbances
 from inspect_cli.truth.faults import Faults

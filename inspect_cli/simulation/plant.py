@@ -13,8 +13,8 @@ import numpy as np
 from inspect_cli.compiled import kernel
 from inspect_cli.interfaces import Posture
 from inspect_cli.records import Command, Lengths, State
+from inspect_cli.spatial.arrays import Matrix, Structured, Vector
 from inspect_cli.spatial.rotations import matrix_to_quaternion, rotate_back
-from inspect_cli.spatial.types import Matrix, Structured, Vector
 from inspect_cli.truth.disturbances import Disturbances
 from inspect_cli.truth.proximity import Proximity
 from inspect_cli.vehicles.kinds import Vehicle

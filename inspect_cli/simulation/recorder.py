@@ -9,7 +9,7 @@ from inspect_cli.interfaces import FlightStack
 from inspect_cli.log.writer import LogWriter
 from inspect_cli.records import Record, Reference, State, SurfaceEstimate, TrueContact
 from inspect_cli.simulation.instruments import Instruments
-from inspect_cli.spatial.types import Matrix, Points, Vector
+from inspect_cli.spatial.arrays import Matrix, Points, Vector
 
 POSE_S = 0.1
 """Between the poses that viewers draw."""

@@ -11,8 +11,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from inspect_cli.spatial.arrays import Points, Structured
 from inspect_cli.spatial.primitives import raycast
-from inspect_cli.spatial.types import Points, Structured
 
 MAX_RANGE_M = 60.0
 

@@ -19,9 +19,9 @@ import mujoco
 import numpy as np
 
 from inspect_cli.schema.truth import TruePlatform
+from inspect_cli.spatial.arrays import Structured, Vector
 from inspect_cli.spatial.primitives import CYLINDER, PLANE, normal_at, point_at
 from inspect_cli.spatial.rotations import matrix_to_quaternion
-from inspect_cli.spatial.types import Structured, Vector
 from inspect_cli.truth.geometry import StructureTruth
 from inspect_cli.vehicles.kinds import Tip, Vehicle
 

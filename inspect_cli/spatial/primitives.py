@@ -23,7 +23,7 @@ from numpy.typing import ArrayLike
 
 from inspect_cli.compiled import kernel
 from inspect_cli.errors import GeometryError
-from inspect_cli.spatial.types import Matrix, Points, Structured, Vector
+from inspect_cli.spatial.arrays import Matrix, Points, Structured, Vector
 
 PLANE, SPHERE, CYLINDER = 0, 1, 2
 

@@ -10,7 +10,7 @@ from __future__ import annotations
 import numpy as np
 
 from inspect_cli.compiled import kernel
-from inspect_cli.spatial.types import Matrix, Vector
+from inspect_cli.spatial.arrays import Matrix, Vector
 
 SMALL_ANGLE = 1e-7
 

@@ -8,7 +8,7 @@ from pathlib import Path
 
 import numpy as np
 
-from inspect_cli.spatial.types import Points
+from inspect_cli.spatial.arrays import Points
 from inspect_cli.structure.files import (
     ReadPoints,
     muted_stderr,

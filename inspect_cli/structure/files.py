@@ -10,7 +10,7 @@ from pathlib import Path
 from typing import Any
 
 from inspect_cli.errors import EnvironmentFault, GeometryError, Location, Problem
-from inspect_cli.spatial.types import Points
+from inspect_cli.spatial.arrays import Points
 
 
 @dataclass(frozen=True)

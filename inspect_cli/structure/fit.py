@@ -8,8 +8,8 @@ from typing import Literal
 import numpy as np
 
 from inspect_cli.errors import GeometryError
+from inspect_cli.spatial.arrays import Mask, Matrix, Points, Vector
 from inspect_cli.spatial.primitives import CYLINDER, PLANE, SPHERE, level_axes
-from inspect_cli.spatial.types import Mask, Matrix, Points, Vector
 from inspect_cli.structure.least_squares import PARAMETERS, frame_of, normal_equations
 
 Kind = Literal["plane", "sphere", "cylinder"]

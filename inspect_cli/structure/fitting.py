@@ -16,8 +16,8 @@ from typing import Literal
 import numpy as np
 
 from inspect_cli.errors import GeometryError, Problem
+from inspect_cli.spatial.arrays import Points, Vector
 from inspect_cli.spatial.primitives import CYLINDER
-from inspect_cli.spatial.types import Points, Vector
 from inspect_cli.structure.fit import CODES, Fit, Kind, described, require_determined
 from inspect_cli.structure.hypotheses import best_candidates, candidates
 from inspect_cli.structure.least_squares import PARAMETERS, minimised, residuals

@@ -11,8 +11,8 @@ from __future__ import annotations
 import numpy as np
 
 from inspect_cli.compiled import kernel
+from inspect_cli.spatial.arrays import Matrix, Points, Vector
 from inspect_cli.spatial.primitives import PLANE, SPHERE
-from inspect_cli.spatial.types import Matrix, Points, Vector
 from inspect_cli.structure.least_squares import truncated_cost
 
 CANDIDATES = 2000

@@ -22,8 +22,8 @@ from __future__ import annotations
 import numpy as np
 
 from inspect_cli.compiled import kernel
+from inspect_cli.spatial.arrays import Matrix, Points, Vector
 from inspect_cli.spatial.primitives import CYLINDER, PLANE, SPHERE
-from inspect_cli.spatial.types import Matrix, Points, Vector
 
 PARAMETERS = {PLANE: 3, SPHERE: 4, CYLINDER: 5}
 

@@ -6,7 +6,7 @@ from pathlib import Path
 
 import numpy as np
 
-from inspect_cli.spatial.types import Points, Vector
+from inspect_cli.spatial.arrays import Points, Vector
 from inspect_cli.structure.files import (
     ReadPoints,
     muted_stderr,

@@ -6,8 +6,8 @@ import numpy as np
 
 from inspect_cli.schema.base import Triple
 from inspect_cli.schema.geometry import CylinderShape, PlaneShape, Shape, Side, SphereShape
+from inspect_cli.spatial.arrays import Points, Vector
 from inspect_cli.spatial.primitives import LEVEL_SINE, level_axes
-from inspect_cli.spatial.types import Points, Vector
 from inspect_cli.structure.fit import Fit
 
 COVERED = 0.99

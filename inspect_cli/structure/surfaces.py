@@ -11,7 +11,7 @@ from inspect_cli.errors import GeometryError, InputError, Location, Problem
 from inspect_cli.schema.mission import CropBox, Mission, StructureSurface, SurfaceSource
 from inspect_cli.schema.plan import FitReport, PlannedSurface
 from inspect_cli.schema.primitives import displaced, displaced_points
-from inspect_cli.spatial.types import Points, Vector
+from inspect_cli.spatial.arrays import Points, Vector
 from inspect_cli.structure.clouds import read_cloud
 from inspect_cli.structure.files import ReadPoints, open3d
 from inspect_cli.structure.fit import Fit

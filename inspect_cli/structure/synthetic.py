@@ -6,8 +6,8 @@ from typing import Literal
 
 import numpy as np
 
+from inspect_cli.spatial.arrays import Points, Structured
 from inspect_cli.spatial.primitives import SPHERE, cylinder, normal_at, plane, point_at, sphere
-from inspect_cli.spatial.types import Points, Structured
 
 
 def bench_surface(kind: Literal["plane", "sphere", "cylinder"]) -> Structured:

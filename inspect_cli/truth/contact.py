@@ -6,8 +6,8 @@ import numpy as np
 
 from inspect_cli.compiled import kernel
 from inspect_cli.records import State, TrueContact
+from inspect_cli.spatial.arrays import Structured, Vector
 from inspect_cli.spatial.primitives import normal_at, patch_distance, project
-from inspect_cli.spatial.types import Structured, Vector
 from inspect_cli.truth.geometry import StructureTruth
 
 

@@ -7,8 +7,8 @@ from collections.abc import Sequence
 import numpy as np
 
 from inspect_cli.schema.truth import Disturbance
+from inspect_cli.spatial.arrays import Vector
 from inspect_cli.spatial.rotations import rotate, rotate_back
-from inspect_cli.spatial.types import Vector
 
 
 class Disturbances:

@@ -10,7 +10,7 @@ from inspect_cli.schema.geometry import Shape
 from inspect_cli.schema.plan import PlannedSurface
 from inspect_cli.schema.primitives import displaced, primitives_of
 from inspect_cli.schema.truth import TrueSurface, TruthModel
-from inspect_cli.spatial.types import Structured
+from inspect_cli.spatial.arrays import Structured
 from inspect_cli.truth.specimen import SpecimenField, load_specimen
 
 

@@ -21,8 +21,8 @@ import numpy as np
 
 from inspect_cli.compiled import kernel
 from inspect_cli.schema.truth import ProximityEffects
+from inspect_cli.spatial.arrays import Indices, Matrix, Points, Structured
 from inspect_cli.spatial.primitives import patch_distance, plane, raycast
-from inspect_cli.spatial.types import Indices, Matrix, Points, Structured
 
 REACH_M = 2.0
 """Beyond this a surface has no effect worth computing."""

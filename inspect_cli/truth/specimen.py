@@ -24,7 +24,7 @@ import numpy as np
 from inspect_cli.compiled import kernel
 from inspect_cli.errors import InputError
 from inspect_cli.schema.truth import AnalyticSpecimen, GridSpecimen, Specimen
-from inspect_cli.spatial.types import Matrix, Points, Vector
+from inspect_cli.spatial.arrays import Matrix, Points, Vector
 from inspect_cli.truth.table import read_table
 
 MV_TO_V: Final = 1e-3

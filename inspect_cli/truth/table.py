@@ -9,7 +9,7 @@ from pathlib import Path
 import numpy as np
 
 from inspect_cli.errors import InputError, Location, Problem
-from inspect_cli.spatial.types import Matrix
+from inspect_cli.spatial.arrays import Matrix
 
 Line = tuple[int, list[str]]
 """Number of a line in its file, counted from 1, and its cells."""

@@ -9,7 +9,7 @@ from collections.abc import Callable
 from typing import Any
 
 from inspect_cli.errors import InputError
-from inspect_cli.schema.platform import PlatformBase
+from inspect_cli.schema.vehicle import PlatformBase
 from inspect_cli.vehicles.kinds import Vehicle
 from inspect_cli.vehicles.tilt_rotor import TiltRotor
 

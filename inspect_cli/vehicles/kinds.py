@@ -16,8 +16,8 @@ from typing import Protocol
 import mujoco
 
 from inspect_cli.interfaces import Capabilities, FlightStack
-from inspect_cli.schema.platform import PlatformBase
-from inspect_cli.spatial.types import Vector
+from inspect_cli.schema.vehicle import PlatformBase
+from inspect_cli.spatial.arrays import Vector
 
 
 @dataclass(frozen=True)

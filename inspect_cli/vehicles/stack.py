@@ -19,8 +19,8 @@ from inspect_cli.estimation.error_state import ErrorStateFilter
 from inspect_cli.estimation.wrench_observer import WrenchObserver
 from inspect_cli.interfaces import Capabilities, at_origin
 from inspect_cli.records import Command, Estimate, Imu, Pose, Reference
-from inspect_cli.schema.platform import ImpedanceProfile, PlatformBase
-from inspect_cli.spatial.types import Vector
+from inspect_cli.schema.vehicle import ImpedanceProfile, PlatformBase
+from inspect_cli.spatial.arrays import Vector
 
 
 class Allocation(Protocol):

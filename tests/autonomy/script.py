@@ -19,7 +19,7 @@ from inspect_cli.records import (
     SurfaceEstimate,
 )
 from inspect_cli.schema.plan import Leg, LegKind, Plan, PostureModel, Target
-from inspect_cli.spatial.types import Vector
+from inspect_cli.spatial.arrays import Vector
 
 TICK_S = 0.02
 STANDOFF_M, PRESS_M = 0.25, 0.10

@@ -12,8 +12,8 @@ import pytest
 
 from inspect_cli.schema.json_schema import committed_file
 from inspect_cli.schema.loading import load_platform
-from inspect_cli.schema.platform import PLATFORM_KINDS, PlatformBase, TiltRotorPlatform
 from inspect_cli.schema.strict_yaml import read_yaml
+from inspect_cli.schema.vehicle import PLATFORM_KINDS, PlatformBase, TiltRotorPlatform
 from inspect_cli.vehicles import VEHICLES, build_vehicle
 
 

@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 
 from inspect_cli.schema.loading import load_platform
-from inspect_cli.schema.platform import TiltRotorPlatform
+from inspect_cli.schema.vehicle import TiltRotorPlatform
 
 Pitched = Callable[[float], TiltRotorPlatform]
 

@@ -14,7 +14,7 @@ from scipy.stats import chi2
 
 from inspect_cli.estimation.error_state import GATE, RESTART_AFTER, ErrorStateFilter
 from inspect_cli.records import Estimate, Imu, Pose
-from inspect_cli.schema.platform import ImuModel, PoseModel
+from inspect_cli.schema.vehicle import ImuModel, PoseModel
 
 Array = NDArray[np.float64]
 IMU_HZ, POSE_HZ = 250, 100

@@ -7,7 +7,7 @@ import pytest
 
 from inspect_cli.guidance.local_surface import LocalSurface
 from inspect_cli.records import Estimate, State, SurfaceEstimate
-from inspect_cli.schema.platform import TofModel
+from inspect_cli.schema.vehicle import TofModel
 from inspect_cli.sensing.tof import TofCamera
 from inspect_cli.spatial.primitives import cylinder, plane
 from inspect_cli.spatial.rotations import (

@@ -12,7 +12,7 @@ from inspect_cli.guidance.orientation import contact_orientation
 from inspect_cli.guidance.pursuit import Pursuit
 from inspect_cli.interfaces import Posture
 from inspect_cli.records import State, SurfaceEstimate
-from inspect_cli.schema.platform import TofModel
+from inspect_cli.schema.vehicle import TofModel
 from inspect_cli.sensing.tof import TofCamera
 from inspect_cli.spatial.primitives import plane
 from inspect_cli.spatial.rotations import matrix_to_quaternion, rotate

@@ -27,9 +27,9 @@ from inspect_cli.records import (
 )
 from inspect_cli.schema.mission import Mission
 from inspect_cli.schema.plan import Plan
-from inspect_cli.schema.platform import TiltRotorPlatform
 from inspect_cli.schema.result import Status
-from inspect_cli.spatial.types import Structured, Vector
+from inspect_cli.schema.vehicle import TiltRotorPlatform
+from inspect_cli.spatial.arrays import Structured, Vector
 
 LENGTHS = {"n_rotors": 12, "n_joints": 6}
 WALL_X_M = 2.0

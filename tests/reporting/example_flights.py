@@ -32,9 +32,9 @@ from inspect_cli.records import (
 from inspect_cli.schema.loading import load_platform
 from inspect_cli.schema.mission import Mission
 from inspect_cli.schema.plan import Plan
-from inspect_cli.schema.platform import PlatformBase
 from inspect_cli.schema.result import Status
-from inspect_cli.spatial.types import Structured, Vector
+from inspect_cli.schema.vehicle import PlatformBase
+from inspect_cli.spatial.arrays import Structured, Vector
 
 WALL_X_M = 2.0
 MIDDLE_Z_M = 1.25

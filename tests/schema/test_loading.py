@@ -11,7 +11,7 @@ from inspect_cli.errors import EXIT_INPUT_REFUSED, SchemaError
 from inspect_cli.schema.campaign import builtin_root, campaign_root
 from inspect_cli.schema.loading import load_mission, load_platform
 from inspect_cli.schema.mission import Mission
-from inspect_cli.schema.platform import TiltRotorPlatform
+from inspect_cli.schema.vehicle import TiltRotorPlatform
 
 Refusal = Callable[[str, str], list[str]]
 

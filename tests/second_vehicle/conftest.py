@@ -10,7 +10,7 @@ import pytest
 from canted_octorotor import CantedOctorotor, CantedOctorotorPlatform
 
 from inspect_cli.schema.loading import load_mission
-from inspect_cli.schema.platform import PLATFORM_KINDS
+from inspect_cli.schema.vehicle import PLATFORM_KINDS
 from inspect_cli.vehicles import VEHICLES
 
 KIND = "canted_octorotor"

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from inspect_cli.records import State, TrueContact
-from inspect_cli.schema.platform import HalfCellModel
+from inspect_cli.schema.vehicle import HalfCellModel
 from inspect_cli.sensing.half_cell import FLOATING_V, OVER_RANGE_OHM, HalfCellProbe
 
 QUIET = HalfCellModel(

@@ -9,7 +9,7 @@ from scipy.stats import chi2
 
 from inspect_cli.estimation.error_state import ErrorStateFilter
 from inspect_cli.records import Estimate, State
-from inspect_cli.schema.platform import ImuModel, PoseModel
+from inspect_cli.schema.vehicle import ImuModel, PoseModel
 from inspect_cli.sensing.imu import ImuSensor
 from inspect_cli.sensing.instrument import BLOCK, Noise
 from inspect_cli.sensing.pose import PoseSensor

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from inspect_cli.records import InvalidReason, Probe, Reading, State, TrueContact
-from inspect_cli.schema.platform import HalfCellModel
+from inspect_cli.schema.vehicle import HalfCellModel
 from inspect_cli.sensing.half_cell import OVER_RANGE_OHM, HalfCellProbe
 from inspect_cli.sensing.reading import FORCE_MEAN_S, ReadingJudge
 

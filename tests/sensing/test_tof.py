@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from inspect_cli.records import State
-from inspect_cli.schema.platform import TofModel
+from inspect_cli.schema.vehicle import TofModel
 from inspect_cli.sensing.tof import TofCamera
 from inspect_cli.spatial.primitives import PRIMITIVE, plane, sphere
 from inspect_cli.spatial.rotations import (

@@ -6,7 +6,7 @@ import itertools
 
 import pytest
 
-from inspect_cli.schema.platform import Rates
+from inspect_cli.schema.vehicle import Rates
 from inspect_cli.simulation.clock import Clock
 
 FLIGHT = {"imu": 250, "pose": 100, "tof": 10, "probe": 50, "guidance": 5, "log": 100}

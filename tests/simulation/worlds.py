@@ -12,9 +12,9 @@ from inspect_cli.interfaces import Posture
 from inspect_cli.records import Command
 from inspect_cli.schema.geometry import Shape
 from inspect_cli.schema.loading import load_platform
-from inspect_cli.schema.platform import TiltRotorPlatform
 from inspect_cli.schema.primitives import primitives_of
 from inspect_cli.schema.truth import Disturbance, ProximityEffects, TruePlatform
+from inspect_cli.schema.vehicle import TiltRotorPlatform
 from inspect_cli.simulation.plant import Plant
 from inspect_cli.simulation.world import build_world
 from inspect_cli.truth.disturbances import Disturbances

@@ -10,6 +10,7 @@ import pytest
 from inspect_cli.errors import GeometryError
 from inspect_cli.schema.geometry import CylinderShape, Displacement, PlaneShape, SphereShape
 from inspect_cli.schema.primitives import displaced, primitive_of, primitives_of
+from inspect_cli.spatial.arrays import Structured, Vector
 from inspect_cli.spatial.primitives import (
     PRIMITIVE,
     cylinder,
@@ -22,7 +23,6 @@ from inspect_cli.spatial.primitives import (
     raycast,
     sphere,
 )
-from inspect_cli.spatial.types import Structured, Vector
 
 CASES = {
     "wall": plane([2.0, 0.3, 1.0], [-1.0, 0.2, 0.1], [1.6, 0.9]),

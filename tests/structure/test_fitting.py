@@ -7,8 +7,8 @@ import pytest
 from scipy.optimize import least_squares
 
 from inspect_cli.errors import GeometryError
+from inspect_cli.spatial.arrays import Points, Structured, Vector
 from inspect_cli.spatial.primitives import CYLINDER, PLANE, SPHERE, cylinder, plane
-from inspect_cli.spatial.types import Points, Structured, Vector
 from inspect_cli.structure.fit import CODES, Fit, Kind
 from inspect_cli.structure.fitting import fit_primitive
 from inspect_cli.structure.least_squares import (

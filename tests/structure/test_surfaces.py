@@ -18,8 +18,8 @@ from inspect_cli.schema.geometry import (
 )
 from inspect_cli.schema.mission import CropBox, FitOptions, Mission, SurfaceSource
 from inspect_cli.schema.primitives import displaced, primitive_of
+from inspect_cli.spatial.arrays import Points, Structured
 from inspect_cli.spatial.primitives import cylinder, plane, project, sphere
-from inspect_cli.spatial.types import Points, Structured
 from inspect_cli.structure.patches import shortest_arc, shortest_span
 from inspect_cli.structure.surfaces import believed_surfaces
 from inspect_cli.structure.synthetic import noisy_cloud

@@ -7,7 +7,7 @@ import numpy as np
 
 from inspect_cli.control.tilt_allocation import TiltAllocation
 from inspect_cli.interfaces import FlightStack
-from inspect_cli.schema.platform import TiltRotorPlatform
+from inspect_cli.schema.vehicle import TiltRotorPlatform
 from inspect_cli.vehicles.kinds import Actuators, Tip
 from inspect_cli.vehicles.rigid_body import nominal_body
 from inspect_cli.vehicles.stack import ImpedanceStack

@@ -8,10 +8,10 @@ from inspect_cli.control.impedance import RigidBody, steady_contact_force
 from inspect_cli.control.tilt_allocation import TiltAllocation
 from inspect_cli.interfaces import Margins, Posture
 from inspect_cli.records import Lengths
-from inspect_cli.schema.platform import ImpedanceProfile, TiltRotorPlatform
+from inspect_cli.schema.vehicle import ImpedanceProfile, TiltRotorPlatform
+from inspect_cli.spatial.arrays import Matrix, Points, Vector
 from inspect_cli.spatial.constants import AIR_DENSITY_KGPM3, GRAVITY_MPS2
 from inspect_cli.spatial.rotations import matrix_to_quaternion, quaternion_to_matrix
-from inspect_cli.spatial.types import Matrix, Points, Vector
 from inspect_cli.vehicles.tilt_rotor.model import tool_transform
 
 ARM_SPHERE_M = 0.03

@@ -13,9 +13,9 @@ from canted_octorotor.file_model import (
 from canted_octorotor.fixed_allocation import FixedAllocation
 from inspect_cli.control.impedance import GRAVITY_MPS2, RigidBody, steady_contact_force
 from inspect_cli.interfaces import Margins, Posture
-from inspect_cli.schema.platform import ImpedanceProfile
+from inspect_cli.schema.vehicle import ImpedanceProfile
+from inspect_cli.spatial.arrays import Matrix, Points, Vector
 from inspect_cli.spatial.rotations import matrix_to_quaternion, quaternion_to_matrix
-from inspect_cli.spatial.types import Matrix, Points, Vector
 
 AIR_DENSITY_KGPM3 = 1.225
 WRIST_SPHERE_M = 0.04

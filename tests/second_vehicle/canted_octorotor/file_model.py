@@ -8,8 +8,8 @@ import numpy as np
 from pydantic import Field
 
 from inspect_cli.schema.base import Positive, Strict, Triple
-from inspect_cli.schema.platform import Core, PlatformBase
-from inspect_cli.spatial.types import Matrix, Points, Vector
+from inspect_cli.schema.vehicle import Core, PlatformBase
+from inspect_cli.spatial.arrays import Matrix, Points, Vector
 
 N_ROTORS = 8
 

@@ -6,7 +6,7 @@ import numpy as np
 
 from canted_octorotor.file_model import CantedRotors, rotor_geometry
 from inspect_cli.records import Command
-from inspect_cli.spatial.types import Vector
+from inspect_cli.spatial.arrays import Vector
 
 
 class FixedAllocation:
