@@ -9,6 +9,7 @@ from pathlib import Path
 
 import pytest
 
+from inspect_cli.cli import run
 from inspect_cli.commands.fly import fly
 from inspect_cli.commands.plan import plan
 from inspect_cli.commands.report import report
@@ -126,3 +127,21 @@ def test_reports_of_several_missions_keep_apart(mission: Path, tmp_path: Path) -
         tmp_path / "out" / name / "tilt_rotor_hexarotor-seed1" / "report.html"
         for name in ("one", "two")
     }
+
+
+def test_a_damaged_log_is_refused_and_a_cut_one_is_interrupted(
+    mission: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    data = (fly(mission, seed=1).folder / "flight.mcap").read_bytes()
+    log = tmp_path / "logs" / "flight.mcap"
+    log.parent.mkdir()
+    damaged = bytearray(data)
+    damaged[len(data) // 2] ^= 0x10
+    log.write_bytes(damaged)
+    assert run(["report", str(log)]) == 2
+    assert "flight.mcap" in capsys.readouterr().err.replace("\n", "")
+    assert list(log.parent.iterdir()) == [log]
+    log.write_bytes(data[: len(data) // 2])
+    assert run(["report", str(log)]) == 1
+    result = json.loads((log.parent / "metrics.json").read_text())
+    assert result["status"] == "interrupted"

@@ -1,4 +1,4 @@
-"""Flights that several tests look at: each scenario is flown once per session."""
+"""Flights that several tests look at: each scenario is flown once per run of the tests."""
 
 from __future__ import annotations
 
