@@ -8,8 +8,8 @@ ceiling   T/T∞ = γ^(2/3), γ = ½ + ½ √(1 + R²/(8 d²)): momentum theory 
           speed needs blade-element theory; constant power is chosen. d ≥ 0.1 R is clamped,
           where the momentum theory diverges.
 ground    T/T∞ = 1/(1 − (R/4z)²), Cheeseman & Bennett (ARC R&M 3021, 1955); z ≥ R/2 is clamped.
-wall      T/T∞ = 1 − 0.03 e^(−d/R), chosen: a few per cent of loss that fades within a rotor's
-          radius, the size that near-wall hover tests report.
+wall      T/T∞ = 1 − 0.03 e^(−d/R), chosen without a source: a loss of a few per cent that fades
+          within a rotor's radius.
 
 Distances are measured from the rotor's hub: along the thrust for the ceiling, against it for the
 ground, and to the nearest surface for the wall.
