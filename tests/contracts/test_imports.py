@@ -19,6 +19,8 @@ HEAVY = {"mujoco", "numba", "open3d", "scipy", "plotly", "mcap", "numpy"}
 
 PROBE = """
 import importlib, json, sys, time
+import ctypes, libusb_package
+ctypes.CDLL(str(libusb_package.get_library_path()))
 import numba, mujoco, numpy, open3d, plotly.graph_objects, scipy.spatial, scipy.stats  # noqa
 import foxglove_schemas_protobuf.Log_pb2, mcap.reader, mcap_protobuf.decoder  # noqa
 import pydantic, rich.console, rich.progress, typer.testing, zstandard, yaml  # noqa
