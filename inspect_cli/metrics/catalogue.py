@@ -156,7 +156,7 @@ METRICS: dict[str, MetricSpec] = {
         (State,),
     ),
     "contact.points_total": MetricSpec(
-        "1", half_cell.points_total, "points that the plan wants touched", ()
+        "1", half_cell.points_total, "points that the plan wants read", ()
     ),
     "contact.points_valid": MetricSpec(
         "1", half_cell.points_valid, "points with a valid reading", READ
