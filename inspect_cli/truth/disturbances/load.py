@@ -30,11 +30,13 @@ class Load:
         self.force_tip_W: Vector = np.zeros(3)
         """At the tool's tip, N."""
         self.record = TrueDisturbance.create()
+        numbers = self.record.array.view(np.float64)
+        self._all = (self.force_W, self.torque_B, self.force_tip_W, numbers)
 
     def clear(self) -> None:
         """Nothing acts."""
-        for view in (self.force_W, self.torque_B, self.force_tip_W, *self.record.views.values()):
-            view.fill(0.0)
+        for numbers in self._all:
+            numbers.fill(0.0)
 
 
 class Model(Protocol):
