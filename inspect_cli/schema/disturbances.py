@@ -51,8 +51,9 @@ class Rope(Strict):
     frame: Literal["world", "body"] = "world"
     """``body``: of the body's attitude when a pull begins."""
     direction: Direction
-    stiffness_npm: Annotated[float, Field(gt=0, le=1000)] = 300.0
-    """The cord's; a stiffer one would shake against a force that is held for a control tick."""
+    stiffness_npm: Annotated[float, Field(gt=0, le=1000)] = 10.0
+    """Of cord and hand in series, k. A tip that is held with K yields until the tension is
+    1/(1 + k/K) of the profile; a hand that follows the force is soft."""
     length_m: Positive = 2.0
     pulls: Annotated[tuple[Pull, ...], Field(min_length=1)]
 

@@ -9,7 +9,8 @@ stated direction. It then moves along d by F(t)/k,
 and the tip feels T along h − p_WT: were it held at p₀, T would be the profile F(t). A vehicle
 that yields sees less, one that swings sees the cord turn with it. F rises and falls with the
 quintic 10 s³ − 15 s⁴ + 6 s⁵, whose first and second derivatives end at zero. After the fall the
-hand lets go. The cord has no mass and no damping.
+hand lets go, of whatever tension a tip that has moved away has left. The cord has no mass and no
+damping. A tip that the vehicle holds with K yields until T = F/(1 + k/K).
 """
 
 from __future__ import annotations
