@@ -51,9 +51,10 @@ class Rope(Strict):
     frame: Literal["world", "body"] = "world"
     """``body``: of the body's attitude when a pull begins."""
     direction: Direction
-    stiffness_npm: Annotated[float, Field(gt=0, le=1000)] = 10.0
+    stiffness_npm: Annotated[float, Field(gt=0, le=300)] = 10.0
     """Of cord and hand in series, k. A tip that is held with K yields until the tension is
-    1/(1 + k/K) of the profile; a hand that follows the force is soft."""
+    1/(1 + k/K) of the profile; a hand that follows the force is soft. Against a force that is
+    held for a control tick a light tip begins to shake towards 1000 N/m."""
     length_m: Positive = 2.0
     pulls: Annotated[tuple[Pull, ...], Field(min_length=1)]
 
@@ -105,8 +106,8 @@ class Cable(Strict):
     """(x, y) on the ground; without it, under the place where the vehicle starts."""
     attached: Literal["tool", "body"] = "tool"
     """To the tool's tip, or to O_b."""
-    stiffness_npm: Annotated[float, Field(gt=0, le=1000)] = 500.0
-    """How fast the pull grows when the cable is stretched out."""
+    stiffness_npm: Annotated[float, Field(gt=0, le=500)] = 500.0
+    """How fast the pull grows when the cable is stretched out; softer than a real one."""
 
 
 def _kind(entry: Any) -> Any:

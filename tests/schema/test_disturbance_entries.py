@@ -47,7 +47,7 @@ def read(*entries: dict[str, object]) -> TruthModel:
         (
             "{kind: rope, direction: [1, 0, 0], stiffness_npm: 5000,"
             " pulls: [{start_s: 1, force_n: 5}]}",
-            "truth.disturbances[0].stiffness_npm: must be at most 1000; found 5000",
+            "truth.disturbances[0].stiffness_npm: must be at most 300; found 5000",
         ),
         (
             "{kind: rope, direction: [1, 0, 0], pulls: [{start_s: 1, force_n: 0}]}",

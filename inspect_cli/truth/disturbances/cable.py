@@ -84,6 +84,16 @@ def end_force(x: float, z: float, length: float, w: float, k: float) -> tuple[fl
     return w * c, w * np.sqrt(z * z + 2.0 * c * z)
 
 
+@kernel
+def cable_force(clamp_m: Vector, end_W: Vector, length: float, w: float, k: float) -> Vector:
+    """The cable's force (3,) N in W on its end; ``clamp_m`` (2,) is on the ground."""
+    dx, dy = clamp_m[0] - end_W[0], clamp_m[1] - end_W[1]
+    distance = np.sqrt(dx * dx + dy * dy)
+    towards, down = end_force(distance, end_W[2], length, w, k)
+    scale = towards / distance if distance > 0.0 else 0.0
+    return np.array([scale * dx, scale * dy, -down])
+
+
 class CableLoad:
     """One cable; without a stated clamp it is fixed under the vehicle's first place."""
 
@@ -101,14 +111,9 @@ class CableLoad:
             self._clamp_m = motion.p_WB[:2].copy()
         at_tool = model.attached == "tool"
         end_W = motion.p_WT if at_tool else motion.p_WB
-        apart = self._clamp_m - end_W[:2]
-        distance_m = float(np.hypot(apart[0], apart[1]))
-        towards, down = end_force(
-            distance_m, end_W[2], model.length_m, self._weight_npm, model.stiffness_npm
+        force_W = cable_force(
+            self._clamp_m, end_W, model.length_m, self._weight_npm, model.stiffness_npm
         )
-        force_W = np.array([0.0, 0.0, -down])
-        if towards > 0.0 and distance_m > 0.0:
-            force_W[:2] = towards / distance_m * apart
         carried = load.force_tip_W if at_tool else load.force_W
         carried += force_W
         load.record.f_cable_W += force_W
