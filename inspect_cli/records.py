@@ -168,6 +168,17 @@ class TrueContact(Record):
     resistivity = scalar("Ω·m", "resistivity of the specimen there; NaN without a specimen")
 
 
+class TrueDisturbance(Record):
+    """What pulls at the vehicle in truth; only in logs of flights with a rope, wind or cable."""
+
+    topic = "/truth/disturbance"
+
+    f_rope_W = vector(3, "N", "W", "tension of the rope on the tool's tip")
+    pull = scalar("1", "number of the pull at the rope, from 1 on; 0 while nobody pulls")
+    wind_W = vector(3, "m/s", "W", "velocity of the air, gusts included")
+    f_cable_W = vector(3, "N", "W", "force of the cable on its end at the vehicle")
+
+
 class Imu(Record):
     """One sample of the inertial unit at O_b."""
 
@@ -305,6 +316,7 @@ class Command(Record):
 CORE_RECORDS: tuple[type[Record], ...] = (
     State,
     TrueContact,
+    TrueDisturbance,
     Imu,
     Pose,
     Probe,

@@ -11,6 +11,7 @@ from typing import Annotated, Literal
 from pydantic import Field, model_validator
 
 from inspect_cli.schema.base import Name, NonNegative, Positive, Strict, Triple
+from inspect_cli.schema.disturbances import Disturbance, refuse_impossible
 from inspect_cli.schema.geometry import Displacement, Shape
 
 
@@ -74,21 +75,6 @@ class TruePlatform(Strict):
     """Shifts the centre of mass of the core, in B."""
 
 
-class ConstantWrench(Strict):
-    """A force and a torque that act on the body from ``start_s`` on."""
-
-    kind: Literal["constant"] = "constant"
-    frame: Literal["world", "body"] = "world"
-    force_n: Triple = (0.0, 0.0, 0.0)
-    torque_nm: Triple = (0.0, 0.0, 0.0)
-    start_s: NonNegative = 0.0
-    ramp_s: NonNegative = 1.0
-    """The wrench rises linearly over this time."""
-
-
-Disturbance = ConstantWrench
-
-
 class ProximityEffects(Strict):
     """Aerodynamic effects of near surfaces on the rotors; see ``truth.proximity``."""
 
@@ -121,3 +107,13 @@ class TruthModel(Strict):
     disturbances: tuple[Disturbance, ...] = ()
     proximity: ProximityEffects = ProximityEffects()
     faults: tuple[SensorFault, ...] = ()
+
+    @model_validator(mode="after")
+    def _possible(self) -> TruthModel:
+        refuse_impossible(self.disturbances)
+        return self
+
+    @property
+    def loads_depend_on_the_flight(self) -> bool:
+        """Whether a rope, a wind or a cable acts: their forces are worth a channel of the log."""
+        return any(entry.kind != "constant" for entry in self.disturbances)

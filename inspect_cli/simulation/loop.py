@@ -26,6 +26,7 @@ from inspect_cli.sensing.reading import ReadingJudge
 from inspect_cli.simulation.clock import Clock, Tick
 from inspect_cli.simulation.instruments import Instruments
 from inspect_cli.simulation.plant import Plant
+from inspect_cli.simulation.randomness import component_rng
 from inspect_cli.simulation.recorder import Recorder
 from inspect_cli.simulation.world import build_world
 from inspect_cli.spatial.arrays import Matrix, Vector
@@ -66,7 +67,8 @@ class Flight:
         model = build_world(vehicle, truth.platform, structure)
         radius_m = vehicle.actuators.rotor_radius_m
         proximity = Proximity(truth.proximity, structure.primitives, radius_m)
-        disturbances = Disturbances(truth.disturbances)
+        gusts = component_rng(seed, "wind")
+        disturbances = Disturbances(truth.disturbances, gusts, rates.control_hz)
         self.plant = Plant(model, vehicle, lengths, disturbances, proximity, rates.control_hz)
         self.plan = plan
         self.contact = ContactTruth(structure)
@@ -91,6 +93,7 @@ class Flight:
             self.guidance.reference,
             self.stack,
             self.instruments,
+            disturbances.load.record if truth.loads_depend_on_the_flight else None,
         )
         self.clock = Clock(
             rates.physics_hz,

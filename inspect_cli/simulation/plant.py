@@ -15,7 +15,7 @@ from inspect_cli.interfaces import Posture
 from inspect_cli.records import Command, Lengths, State
 from inspect_cli.spatial.arrays import Matrix, Structured, Vector
 from inspect_cli.spatial.rotations import matrix_to_quaternion, rotate_back
-from inspect_cli.truth.disturbances import Disturbances
+from inspect_cli.truth.disturbances import Disturbances, Motion
 from inspect_cli.truth.proximity import Proximity
 from inspect_cli.vehicles.kinds import Vehicle
 
@@ -122,7 +122,7 @@ class Plant:
         self._n_arm = lengths.get("n_arm", 0)
         self._actuators = vehicle.actuators
         self._max_turn = vehicle.actuators.joint_rate_radps / control_hz
-        self._disturbances = disturbances
+        self.disturbances = disturbances
         self._proximity = proximity
         self._hubs = model.actuator_trnid[: self._n_rotors, 0].copy()
         self._gains = model.actuator_gainprm
@@ -133,6 +133,8 @@ class Plant:
         self._sources = (data.qpos, data.qvel, data.qacc, data.qfrc_constraint)
         self._applied, self._activation = data.qfrc_applied, data.act
         self._contact = data.sensordata
+        self._motion = Motion(data.qpos[:3], data.qpos[3:7], data.qvel[:3], self._tip_W)
+        self._tool = model.body("tool").id
         self._ctrl, self._dynprm = data.ctrl, model.actuator_dynprm
         self._warnings = data.warning.number
 
@@ -177,9 +179,22 @@ class Plant:
 
     def disturb(self, t_s: float) -> None:
         """Set the disturbances of this moment."""
-        if self._disturbances.any:
-            force = self._disturbances.generalized_force(t_s, self.data.qpos[3:7])
-            self._applied[:6] = force
+        if not self.disturbances.any:
+            return
+        load = self.disturbances.act(t_s, self._motion)
+        # What pulls at the tip also turns the joints between it and the body.
+        self._applied[6:] = 0.0
+        self._applied[:3], self._applied[3:6] = load.force_W, load.torque_B
+        if load.force_tip_W.any():
+            self._apply_at_tip(load.force_tip_W)
+
+    def _apply_at_tip(self, force_W: Vector) -> None:
+        """Add Jᵀ f of the tool's tip to the applied generalized forces."""
+        mujoco.mj_comPos(self.model, self.data)  # the Jacobian's axes would lag a step
+        no_torque = np.zeros(3)
+        mujoco.mj_applyFT(
+            self.model, self.data, force_W, no_torque, self._tip_W, self._tool, self._applied
+        )
 
     def feel_surroundings(self) -> None:
         """Set the thrust factors of this moment."""
