@@ -186,6 +186,28 @@ class Pose(Record):
     q_WB = vector(4, "1", "W", "measured attitude of the body, wxyz")
 
 
+class Odometry(Pose):
+    """One pose of the visual-inertial odometry on board; W is where it believed to start."""
+
+    topic = "/sensor/odometry"
+
+
+WALL_SAMPLES = 80
+"""Samples in one row of ``WallForce``."""
+
+
+class WallForce(Record):
+    """A block of samples of a force sensor in the wall; the time is that of its last sample."""
+
+    topic = "/sensor/wall_force"
+
+    period = scalar("s", "between two samples")
+    p_WS = vector(3, "m", "W", "origin of the sensor's frame S")
+    q_WS = vector(4, "1", "W", "attitude of the sensor's frame S, wxyz")
+    f_S = ArrayField((WALL_SAMPLES, 3), "N", "S", "force of the tool on the surface")
+    t_S = ArrayField((WALL_SAMPLES, 3), "N·m", "S", "its torque about the origin of S")
+
+
 class Probe(Record):
     """One raw sample of the half-cell probe and its load cell."""
 
@@ -302,6 +324,8 @@ CORE_RECORDS: tuple[type[Record], ...] = (
     TrueContact,
     Imu,
     Pose,
+    Odometry,
+    WallForce,
     Probe,
     Reading,
     SurfaceEstimate,

@@ -6,6 +6,12 @@ An inertial sample is taken at an instant. Between two samples the filter uses t
 trapezoidal rule), so it is not half a sample behind. A pose that falls between two samples is
 reached with the older sample held; the rest of the interval then gets what is missing from
 the trapezoid.
+
+Poses may come from a tracker or from odometry, which has no absolute reference: its error is
+white noise, which the filter is told, upon a drift that it is not told. Nothing on board can
+observe the drift of position and yaw. Within it the filter is consistent, since the drift of one
+interval is far below the white noise, and ``covariance`` then is that of the belief against the
+odometry's own drifting frame; the error against W is larger and grows without a bound.
 """
 
 from __future__ import annotations
@@ -24,15 +30,16 @@ from inspect_cli.estimation.kalman import (
     take_sample,
 )
 from inspect_cli.records import Estimate, Imu, Pose
-from inspect_cli.schema.vehicle import ImuModel, PoseModel
+from inspect_cli.schema.positioning import PoseNoise
+from inspect_cli.schema.vehicle import ImuModel
 from inspect_cli.spatial.arrays import Vector
 from inspect_cli.spatial.rotations import quaternion_normalize
 
 GATE: Final = 38.258
 """A pose is rejected above this: the χ² quantile (6 degrees of freedom) of probability 1 − 1e-6."""
 
-RESTART_AFTER: Final = 20
-"""Poses rejected in a row after which the tracker is believed against the filter."""
+RESTART_S: Final = 0.2
+"""Poses rejected in a row for so long are believed against the filter."""
 
 START_SPEED_MPS: Final = 1.0
 """Standard deviation of each velocity component when the motion (re)starts from a pose."""
@@ -50,12 +57,15 @@ class ErrorStateFilter:
 
     ``covariance`` (15, 15) is that of the error state, in the order of ``Estimate.sigma``.
     ``rejected`` counts the poses rejected in a row. A lone outlier is ignored; after
-    ``RESTART_AFTER`` of them (0.2 s at 100 Hz) position and attitude are taken from the tracker
+    ``restart_after`` of them (``RESTART_S``) position and attitude are taken from the pose
     and the velocity is learnt anew, while the biases and their covariance stay.
     """
 
-    def __init__(self, imu_model: ImuModel, pose_model: PoseModel, imu_hz: int) -> None:
+    def __init__(
+        self, imu_model: ImuModel, pose_model: PoseNoise, imu_hz: int, pose_hz: int
+    ) -> None:
         self._imu_hz = imu_hz
+        self.restart_after = max(2, round(RESTART_S * pose_hz))
         self._bias_variance = np.repeat(
             [imu_model.accel_bias_initial_mps2**2, imu_model.gyro_bias_initial_radps**2], 3
         )
@@ -133,7 +143,7 @@ class ErrorStateFilter:
         if math.isnan(chi2):
             return False
         self.rejected += 1
-        if self.rejected < RESTART_AFTER:
+        if self.rejected < self.restart_after:
             return False
         self._restart_motion(pose)
         return True

@@ -13,6 +13,7 @@ from typing import TypeVar
 from pydantic import BaseModel, ValidationError
 
 from inspect_cli.errors import Location, Problem, SchemaError
+from inspect_cli.schema.agreement import disagreements
 from inspect_cli.schema.campaign import campaign_root, inside, is_file, platform_files
 from inspect_cli.schema.explain import problems_of, shown, suggest
 from inspect_cli.schema.mission import Mission, MissionFile
@@ -66,8 +67,8 @@ def load_mission(path: Path, platform: Path | None = None) -> Loaded:
             model = load_platform(platform_file)
         except SchemaError as error:
             problems += error.problems
-    if file and model and file.impedance not in model.control.profiles:
-        problems.append(_no_profile(file.impedance, node, model))
+    if file and model:
+        problems += disagreements(file, node, model)
     if problems or file is None or model is None or platform_file is None:
         raise SchemaError(sorted(set(problems), key=_place))
 
@@ -156,13 +157,6 @@ def _named_platform(
         what = f"no platform is named '{shown(name)}'"
         problems.append(Problem(what, where, suggest(name, list(known))))
     return known.get(name)
-
-
-def _no_profile(name: str, node: Node, platform: PlatformBase) -> Problem:
-    given = node.child("impedance")
-    where = given.at("impedance") if given else Location(node.file)
-    what = f"{platform.name} has no impedance profile '{name}'"
-    return Problem(what, where, suggest(name, list(platform.control.profiles)))
 
 
 def _place(problem: Problem) -> tuple[str, int, int]:

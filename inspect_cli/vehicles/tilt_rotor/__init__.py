@@ -7,6 +7,7 @@ import numpy as np
 
 from inspect_cli.control.tilt_allocation import TiltAllocation
 from inspect_cli.interfaces import FlightStack
+from inspect_cli.schema.positioning import Estimation
 from inspect_cli.schema.vehicle import TiltRotorPlatform
 from inspect_cli.vehicles.kinds import Actuators, Tip
 from inspect_cli.vehicles.rigid_body import nominal_body
@@ -39,10 +40,15 @@ class TiltRotor:
         """The nominal MuJoCo model, in free space."""
         return build_spec(self.platform)
 
-    def flight_stack(self) -> FlightStack:
+    def flight_stack(self, estimation: Estimation = "external") -> FlightStack:
         """Error-state filter, momentum observer, selective impedance, static allocation."""
         return ImpedanceStack(
-            self.platform, self.capabilities, self._body, self._profile, self._allocation()
+            self.platform,
+            self.capabilities,
+            self._body,
+            self._profile,
+            self._allocation(),
+            estimation,
         )
 
     def _allocation(self) -> TiltAllocation:

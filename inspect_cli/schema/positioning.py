@@ -1,0 +1,41 @@
+"""Where a vehicle gets its poses from: the external tracker, or the odometry on board."""
+
+from __future__ import annotations
+
+from typing import Literal
+
+from inspect_cli.schema.base import NonNegative, Strict, Triple
+
+Estimation = Literal["external", "onboard"]
+"""Whether the vehicle knows its pose from the external tracker or from its own odometry."""
+
+
+class PoseNoise(Strict):
+    """White noise of a pose measurement, which is what the filter is told of it."""
+
+    position_noise_m: NonNegative
+    attitude_noise_rad: NonNegative
+
+
+class PoseModel(PoseNoise):
+    """The external tracker."""
+
+    body_misalignment_rad: Triple = (0.0, 0.0, 0.0)
+    """Rotation vector (roll, pitch, yaw) from B to the frame that the tracker takes for the body.
+    It stands for a calibration error of a ground truth, and only metrics use it: the pose that
+    the vehicle flies on is free of it."""
+
+
+class OdometryModel(PoseNoise):
+    """Visual-inertial odometry: white noise, and a drift that grows with motion."""
+
+    position_walk: NonNegative
+    """m/√m travelled, each axis."""
+    scale_error: NonNegative
+    """Standard deviation of the run's relative error of every distance."""
+    yaw_walk_moved: NonNegative
+    """rad/√m travelled."""
+    yaw_walk_turned: NonNegative
+    """rad/√rad turned."""
+    tilt_error_rad: NonNegative
+    """Standard deviation of the run's constant error of roll and of pitch."""
