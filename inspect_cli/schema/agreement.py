@@ -69,4 +69,4 @@ def _place(node: Node, steps: tuple[Step, ...]) -> Location:
             break
         passed.append(step)
         node = child
-    return node.at(join(tuple(passed)))
+    return node.at(join(passed)) if passed else Location(node.file)

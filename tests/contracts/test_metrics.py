@@ -25,6 +25,7 @@ SUFFIXES = {
     "Wh": ("_wh_planned",),
     "m/s": ("_mps",),
     "1": (
+        *("_growth", "_over_hovering"),
         *("_cv", "_count", "_gaps", "_mask", "_mismatches", "_points", "_rel_max"),
         *("_share", "_total", "_valid"),
     ),
