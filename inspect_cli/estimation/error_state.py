@@ -7,11 +7,12 @@ trapezoidal rule), so it is not half a sample behind. A pose that falls between 
 reached with the older sample held; the rest of the interval then gets what is missing from
 the trapezoid.
 
-Poses may come from a tracker or from odometry, which has no absolute reference: its error is
-white noise, which the filter is told, upon a drift that it is not told. Nothing on board can
-observe the drift of position and yaw. Within it the filter is consistent, since the drift of one
-interval is far below the white noise, and ``covariance`` then is that of the belief against the
-odometry's own drifting frame; the error against W is larger and grows without a bound.
+Poses may come from a tracker or from odometry, which has no absolute reference: they are white
+noise around a frame that drifts as the vehicle moves. The belief lives in that frame. What the
+frame does between two poses, the inertial unit does not feel; it is process noise of position and
+yaw (``frame_drifts``), without which the filter would hold a millimetre of drift for an outlier.
+Nothing on board can observe the drift itself: ``covariance`` is that of the belief against the
+odometry's frame, and the error against W is larger and grows without a bound.
 """
 
 from __future__ import annotations
@@ -24,6 +25,7 @@ import numpy as np
 from inspect_cli.estimation.kalman import (
     STATES,
     correct_pose,
+    frame_drifts,
     pose_innovation,
     propagate,
     publish,
@@ -79,6 +81,8 @@ class ErrorStateFilter:
         position_sd = max(pose_model.position_noise_m, POSITION_FLOOR_M)
         attitude_sd = max(pose_model.attitude_noise_rad, ATTITUDE_FLOOR_RAD)
         self._pose_variance = np.repeat([position_sd**2, attitude_sd**2], 3)
+        self._walks = np.array(pose_model.walks)
+        self._posed_t = 0.0
         self._p, self._v, self._q = np.zeros(3), np.zeros(3), np.array([1.0, 0.0, 0.0, 0.0])
         self._bias = np.zeros(6)
         self.covariance = np.zeros((STATES, STATES))
@@ -98,7 +102,7 @@ class ErrorStateFilter:
         self.covariance[:] = 0.0
         np.fill_diagonal(self.covariance[9:, 9:], self._bias_variance)
         self._held[:], self._held_t = 0.0, math.nan
-        self._t = pose.t_s
+        self._t = self._posed_t = pose.t_s
         self._restart_motion(pose)
         self._publish(estimate)
 
@@ -121,6 +125,7 @@ class ErrorStateFilter:
         dt = pose.t_s - self._t
         if dt > 0.0 and not math.isnan(self._held_t):
             self._advance(self._held, dt)
+        self._drift(pose.t_s)
         innovation = pose_innovation(self._p, self._q, pose.p_WB, pose.q_WB)
         chi2 = correct_pose(
             self._p,
@@ -154,6 +159,12 @@ class ErrorStateFilter:
         noise = self._noise if stretch < 1.5 else self._noise * stretch
         propagate(self._p, self._v, self._q, self._bias, self.covariance, sample, dt, noise)
         self._t += dt
+
+    def _drift(self, t_s: float) -> None:
+        since, self._posed_t = t_s - self._posed_t, t_s
+        if self._walks.any() and since > 0.0:
+            rate = self._held[3:] - self._bias[3:]
+            frame_drifts(self.covariance, self._q, self._v, rate, self._walks, since)
 
     def _restart_motion(self, pose: Pose) -> None:
         self._p[:] = pose.p_WB

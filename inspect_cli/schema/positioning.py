@@ -11,10 +11,15 @@ Estimation = Literal["external", "onboard"]
 
 
 class PoseNoise(Strict):
-    """White noise of a pose measurement, which is what the filter is told of it."""
+    """What the filter is told of a pose measurement: its white noise, and whether it drifts."""
 
     position_noise_m: NonNegative
     attitude_noise_rad: NonNegative
+
+    @property
+    def walks(self) -> tuple[float, float, float]:
+        """Random walks of the frame: position per √m, yaw per √m and per √rad; 0 for none."""
+        return (0.0, 0.0, 0.0)
 
 
 class PoseModel(PoseNoise):
@@ -39,3 +44,8 @@ class OdometryModel(PoseNoise):
     """rad/√rad turned."""
     tilt_error_rad: NonNegative
     """Standard deviation of the run's constant error of roll and of pitch."""
+
+    @property
+    def walks(self) -> tuple[float, float, float]:
+        """Random walks of position and yaw, as above."""
+        return (self.position_walk, self.yaw_walk_moved, self.yaw_walk_turned)
