@@ -11,6 +11,7 @@ from scenarios import TWO_POINTS, Array, Flown, Scenario
 
 from inspect_cli.errors import SchemaError
 from inspect_cli.estimation.observer_lag import first_order_response
+from inspect_cli.metrics.force_sensor import low_pass
 from inspect_cli.records import Mode, Pose
 from inspect_cli.vehicles.stack import ImpedanceStack
 
@@ -116,7 +117,7 @@ def test_without_such_a_sensor_nothing_is_recorded(flown: Fly) -> None:
 
 def test_the_observers_error_is_its_lag(flown: Fly, campaign: Path) -> None:
     """The RMSE in contact against the first-order response to the true force, for two gains and
-    two speeds. Beyond the lag there are near surfaces and the tilt: 0.15 N here."""
+    two speeds. Beyond the lag there are near surfaces and the tilt error: 0.15 N together."""
     for gain in (1.0, 3.0):
         name = f"gain_{gain:g}"
         (campaign / "platforms" / f"{name}.yaml").write_text(
@@ -139,8 +140,12 @@ def test_the_observers_error_is_its_lag(flown: Fly, campaign: Path) -> None:
 
 
 def _lag_rmse(flight: Flown, gain: float) -> float:
-    """What a first-order observer of the true normal force would err by, in contact, N."""
+    """What a first-order observer of the true normal force would err by, in contact, N.
+
+    Against the force as the comparison filters it, which takes away the blow of the touch.
+    """
     force: Array = flight.state["f_normal"]
     lagged = first_order_response(force, 0.01, gain)
+    filtered = low_pass(force[:, None], 100.0)[:, 0]
     touching = force > 0.1
-    return float(np.sqrt(np.mean((lagged - force)[touching] ** 2)))
+    return float(np.sqrt(np.mean((lagged - filtered)[touching] ** 2)))
