@@ -187,7 +187,7 @@ class Pose(Record):
 
 
 class Odometry(Pose):
-    """One pose of the visual-inertial odometry on board; W is where it believed to start."""
+    """One pose of the odometry on board; its frame starts as W and drifts as the vehicle moves."""
 
     topic = "/sensor/odometry"
 
