@@ -266,6 +266,22 @@ def test_what_the_mission_asks_for_and_does_not_get(
     assert message in refusal(old, new)[0]
 
 
+def test_onboard_estimation_needs_a_platform_with_odometry(campaign: Path) -> None:
+    text = (builtin_root() / "platforms" / "tilt_rotor_hexarotor.yaml").read_text()
+    begin, end = text.index("  odometry:\n    position_noise_m"), text.index("  tof:\n")
+    platform = campaign / "platforms" / "tilt_rotor_hexarotor.yaml"
+    platform.write_text(text[:begin] + text[end:])
+    mission = campaign / "missions" / "m.yaml"
+    assert load_mission(mission).platform.sensors.odometry is None
+    mission.write_text(mission.read_text().replace("seeds: [1, 2]", "estimation: onboard"))
+    with pytest.raises(SchemaError) as caught:
+        load_mission(mission)
+    assert str(caught.value).endswith(
+        "m.yaml:4:13: estimation: tilt_rotor_hexarotor has no sensors.odometry to fly on\n"
+        "    choices: external"
+    )
+
+
 def test_one_surface_carries_a_force_sensor(refusal: Refusal) -> None:
     two = (
         "    tank: {force_sensor: {rate_hz: 500}}\n    wall:\n      force_sensor: {rate_hz: 250}\n"

@@ -145,7 +145,7 @@ IMU = ImuModel(
 
 
 class Shuttle:
-    """To and fro along x for one run: the filter fed by inertial unit and odometry, by tick of
+    """Back and forth along x for one run: the filter fed by inertial unit and odometry, by tick of
     750 Hz, at which 250 Hz and 30 Hz fall on ticks."""
 
     def __init__(self, seed: int) -> None:
