@@ -197,6 +197,28 @@ class Pose(Record):
     q_WB = vector(4, "1", "W", "measured attitude of the body, wxyz")
 
 
+class Odometry(Pose):
+    """One pose of the odometry on board; its frame starts as W and drifts as the vehicle moves."""
+
+    topic = "/sensor/odometry"
+
+
+WALL_SAMPLES = 80
+"""Samples in one row of ``WallForce``."""
+
+
+class WallForce(Record):
+    """A block of samples of a force sensor in the wall; the time is that of its last sample."""
+
+    topic = "/sensor/wall_force"
+
+    period = scalar("s", "between two samples")
+    p_WS = vector(3, "m", "W", "origin of the sensor's frame S")
+    q_WS = vector(4, "1", "W", "attitude of the sensor's frame S, wxyz")
+    f_S = ArrayField((WALL_SAMPLES, 3), "N", "S", "force of the tool on the surface")
+    t_S = ArrayField((WALL_SAMPLES, 3), "N·m", "S", "its torque about the origin of S")
+
+
 class Probe(Record):
     """One raw sample of the half-cell probe and its load cell."""
 
@@ -319,6 +341,8 @@ CORE_RECORDS: tuple[type[Record], ...] = (
     TrueDisturbance,
     Imu,
     Pose,
+    Odometry,
+    WallForce,
     Probe,
     Reading,
     SurfaceEstimate,

@@ -90,7 +90,8 @@ def _fly(
     with LogWriter(folder / LOG_NAME, _records(loaded.truth), lengths) as log:
         _attach(log, loaded, plan, seed)
         log.scene(0.0, plan)
-        flight = Flight(vehicle, plan, loaded.truth, structure, seed, log)
+        estimation = loaded.mission.estimation
+        flight = Flight(vehicle, plan, loaded.truth, structure, seed, log, estimation)
         report = (lambda t_s: progress(t_s, plan.duration_s)) if progress else None
         try:
             ending = flight.run(report)

@@ -2,33 +2,19 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from dataclasses import dataclass
-
 from inspect_cli.metrics import contact, estimation, guidance, half_cell, operation, pull, tracking
-from inspect_cli.metrics.flight import Flight
+from inspect_cli.metrics.catalogue_estimation import ESTIMATION_METRICS
+from inspect_cli.metrics.spec import MetricSpec
 from inspect_cli.records import (
     Command,
     Estimate,
     Reading,
-    Record,
     Reference,
     State,
     SurfaceEstimate,
     TrueContact,
     TrueDisturbance,
 )
-
-
-@dataclass(frozen=True)
-class MetricSpec:
-    """A metric: ``function`` computes it from a flight that has the channels ``needs``."""
-
-    unit: str
-    function: Callable[[Flight], float]
-    meaning: str
-    needs: tuple[type[Record], ...]
-
 
 FOLLOWED = (State, Reference)
 ESTIMATED = (State, Reference, Estimate)
@@ -276,4 +262,5 @@ METRICS: dict[str, MetricSpec] = {
     "actuators.thrust_max_n": MetricSpec(
         "N", operation.thrust_max, "largest true thrust of a single rotor", (State,)
     ),
+    **ESTIMATION_METRICS,
 }

@@ -52,6 +52,9 @@ BY_METRIC: dict[str, Tolerance] = {
     "actuators.thrust_max_n": Tolerance(0.1, 0.10),
     # Without a unit, and yet not counts.
     "contact.force_cv": Tolerance(0.005, 0.10),
+    "contact.residual_cv": Tolerance(0.005, 0.10),
+    "contact.oscillation_growth": Tolerance(0.05, 0.10),
+    "estimation.moving_over_hovering": Tolerance(0.05, 0.10),
     "half_cell.resistance_error_rel_max": Tolerance(0.002, 0.10),
     "flight.saturated_share": Tolerance(0.002, 0.10),
     "pull.along_over_z": Tolerance(0.1, 0.15),

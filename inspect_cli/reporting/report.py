@@ -156,7 +156,7 @@ def _flight(
         element("h3", "Contact force and external wrench"),
         _drawn(forces[:1]),
         _drawn(forces[1:], side_by_side=True),
-        metrics_table("Contact and readings.", result, ("contact", "half_cell")),
+        metrics_table("Contact and readings.", result, CONTACT_GROUPS),
         element("h3", "Surface seen by the depth camera"),
         _drawn(surface_figures(log, timeline)),
         element("h3", "Actuators"),
@@ -170,7 +170,8 @@ def _flight(
     )
 
 
-SHOWN_GROUPS = ("tracking", "estimation", "contact", "half_cell")
+CONTACT_GROUPS = ("contact", "force_sensor", "half_cell")
+SHOWN_GROUPS = ("tracking", "estimation", *CONTACT_GROUPS)
 
 
 def _other_groups(result: Result) -> list[str]:

@@ -13,8 +13,9 @@ import numpy as np
 from inspect_cli.compiled import kernel
 from inspect_cli.interfaces import Posture
 from inspect_cli.records import Command, Lengths, State
+from inspect_cli.simulation.world import WALL_SENSOR
 from inspect_cli.spatial.arrays import Matrix, Structured, Vector
-from inspect_cli.spatial.rotations import matrix_to_quaternion, rotate_back
+from inspect_cli.spatial.rotations import cross, matrix_to_quaternion, rotate_back
 from inspect_cli.truth.disturbances import Disturbances, Motion
 from inspect_cli.truth.proximity import Proximity
 from inspect_cli.vehicles.kinds import Vehicle
@@ -135,6 +136,8 @@ class Plant:
         self._contact = data.sensordata
         self._motion = Motion(data.qpos[:3], data.qpos[3:7], data.qvel[:3], self._tip_W)
         self._tool = model.body("tool").id
+        walls = [s for s in map(model.sensor, range(model.nsensor)) if WALL_SENSOR in s.name]
+        self._walls = [data.sensordata[s.adr[0] : s.adr[0] + s.dim[0]] for s in walls]
         self._ctrl, self._dynprm = data.ctrl, model.actuator_dynprm
         self._warnings = data.warning.number
 
@@ -163,6 +166,15 @@ class Plant:
         )
         self.state.t_s = t_s
         return self.state
+
+    def wall_wrench(self) -> Vector:
+        """Force of the tip on the surface with a force sensor and torque about O_W, (6,) in W."""
+        wrench = np.zeros(6)
+        for contact in self._walls:
+            force = contact[:3]
+            wrench[:3] += force
+            wrench[3:] += contact[3:6] + cross(contact[6:9], force)
+        return wrench
 
     def apply(self, command: Command) -> None:
         """Take a command."""
