@@ -39,7 +39,7 @@ VAULT = CylinderShape(
 def vehicle_with_physics_at(physics_hz: int) -> TiltRotor:
     platform = vehicle_at(90.0).platform
     rates = platform.rates.model_copy(update={"physics_hz": physics_hz})
-    vehicle = build_vehicle(platform.model_copy(update={"rates": rates}), "contact_ndt")
+    vehicle = build_vehicle(platform.model_copy(update={"rates": rates}))
     assert isinstance(vehicle, TiltRotor)
     return vehicle
 
