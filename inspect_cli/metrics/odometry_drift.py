@@ -22,7 +22,7 @@ import numpy as np
 from inspect_cli.metrics.flight import Flight, NotMeasured, mean
 from inspect_cli.metrics.geometry import attitude_angle
 from inspect_cli.schema.positioning import OdometryModel
-from inspect_cli.spatial.arrays import Points, Vector
+from inspect_cli.spatial.arrays import Mask, Points, Vector
 
 STEP = 10
 """Rows of the log between two steps of the sums."""
@@ -56,8 +56,8 @@ def _model(flight: Flight) -> OdometryModel:
     return odometry
 
 
-def _airborne(flight: Flight) -> Vector:
-    rows: Vector = flight.airborne[::STEP]
+def _airborne(flight: Flight) -> Mask:
+    rows: Mask = flight.airborne[::STEP]
     return rows
 
 

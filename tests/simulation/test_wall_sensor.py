@@ -58,7 +58,8 @@ def plant_before(structure: StructureTruth, physics_hz: int = 1000) -> Plant:
     model = build_world(vehicle, TruePlatform(), structure)
     model.opt.gravity[:] = 0.0
     proximity = Proximity(CALM, structure.primitives, vehicle.actuators.rotor_radius_m)
-    return Plant(model, vehicle, vehicle.capabilities.lengths, Disturbances(()), proximity, 250)
+    calm = Disturbances((), np.random.default_rng(0), 250)
+    return Plant(model, vehicle, vehicle.capabilities.lengths, calm, proximity, 250)
 
 
 def push(plant: Plant, force_W: Array, steps: int) -> None:
