@@ -12,25 +12,21 @@ from inspect_cli.sensing.imu import ImuSensor
 from inspect_cli.sensing.pose import PoseSensor
 from inspect_cli.sensing.tof import TofCamera
 from inspect_cli.simulation.randomness import component_rng
-from inspect_cli.spatial.arrays import Structured
-from inspect_cli.spatial.primitives import plane
-from inspect_cli.truth.faults import Faults, spoil
+from inspect_cli.truth.faults import Faults, punch_holes, spoil
+from inspect_cli.truth.solids import Solids, on_the_ground
 
 
 class Instruments:
     """IMU, tracker, depth camera and half-cell probe. A call is False when nothing came."""
 
-    def __init__(
-        self, platform: PlatformBase, surfaces: Structured, faults: Faults, seed: int
-    ) -> None:
+    def __init__(self, platform: PlatformBase, solids: Solids, faults: Faults, seed: int) -> None:
         sensors = platform.sensors
-        ground = plane(np.zeros(3), np.array([0.0, 0.0, 1.0]), (200.0, 200.0))
-        seen = np.concatenate([surfaces, ground])
         self.imu = ImuSensor(sensors.imu, platform.rates.imu_hz, component_rng(seed, "imu"))
         self.pose = PoseSensor(sensors.pose, component_rng(seed, "pose"))
-        self.tof = TofCamera(sensors.tof, seen, component_rng(seed, "tof"))
+        self.tof = TofCamera(sensors.tof, on_the_ground(solids), component_rng(seed, "tof"))
         self.probe = HalfCellProbe(sensors.half_cell, component_rng(seed, "probe"))
         self._faults = faults
+        self._holes = component_rng(seed, "tof holes")
 
     def sample_imu(self, state: State) -> bool:
         """An inertial sample."""
@@ -46,7 +42,13 @@ class Instruments:
         if fault is not None and fault.fault == "off":
             return False
         self.tof.sample(state)
-        if fault is not None:
+        if fault is None:
+            return True
+        if fault.share is not None:
+            model = self.tof.model
+            image = self.tof.points_D.reshape(model.rows, model.columns, 3)
+            punch_holes(image, fault.share, self._holes)
+        else:
             self.tof.points_D[...] = np.nan
         return True
 

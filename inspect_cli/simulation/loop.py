@@ -64,12 +64,20 @@ class Flight:
         rates = platform.rates
         model = build_world(vehicle, truth.platform, structure)
         radius_m = vehicle.actuators.rotor_radius_m
-        proximity = Proximity(truth.proximity, structure.primitives, radius_m)
+        proximity = Proximity(truth.proximity, structure.solids, radius_m)
         disturbances = Disturbances(truth.disturbances)
-        self.plant = Plant(model, vehicle, lengths, disturbances, proximity, rates.control_hz)
+        self.plant = Plant(
+            model,
+            vehicle,
+            lengths,
+            structure.solids,
+            disturbances,
+            proximity,
+            rates.control_hz,
+        )
         self.plan = plan
         self.contact = ContactTruth(structure)
-        self.instruments = Instruments(platform, structure.primitives, Faults(truth.faults), seed)
+        self.instruments = Instruments(platform, structure.solids, Faults(truth.faults), seed)
         self.stack = vehicle.flight_stack()
         self.guidance = Pursuit(vehicle.capabilities, posture_of(plan.start))
         self.surface = SurfaceEstimate.create()

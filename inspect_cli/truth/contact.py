@@ -7,17 +7,17 @@ import numpy as np
 from inspect_cli.compiled import kernel
 from inspect_cli.records import State, TrueContact
 from inspect_cli.spatial.arrays import Structured, Vector
-from inspect_cli.spatial.primitives import normal_at, patch_distance, project
 from inspect_cli.truth.geometry import StructureTruth
+from inspect_cli.truth.solids import Solids, count_of, distance_from, foot_on, normal_on
 
 
 @kernel
-def nearest_surface(prims: Structured, p_W: Vector, contact: Structured) -> int:
+def nearest_surface(solids: Solids, p_W: Vector, contact: Structured) -> int:
     """Write surface, distance, normal and (u, v) of the nearest patch; return its index or −1."""
     row = contact[0]
     nearest, index = np.inf, -1
-    for i in range(prims.shape[0]):
-        distance = patch_distance(prims, i, p_W)
+    for i in range(count_of(solids)):
+        distance = distance_from(solids, i, p_W)
         if abs(distance) < abs(nearest):
             nearest, index = distance, i
     row["surface"] = index
@@ -26,11 +26,11 @@ def nearest_surface(prims: Structured, p_W: Vector, contact: Structured) -> int:
         row["n_W"][:] = np.nan
         row["uv"][:] = np.nan
         return index
-    foot = project(prims, index, p_W)
+    u, v, _, _ = foot_on(solids, index, p_W)
     row["distance"] = nearest
-    normal = normal_at(prims, index, foot[0], foot[1])
-    for k in range(2):
-        row["uv"][k] = foot[k]
+    normal = normal_on(solids, index, u, v)
+    row["uv"][0] = u
+    row["uv"][1] = v
     for k in range(3):
         row["n_W"][k] = normal[k]
     return index
@@ -46,7 +46,7 @@ class ContactTruth:
     def update(self, state: State) -> TrueContact:
         """The truth at the tip now."""
         contact = self.contact
-        index = nearest_surface(self._structure.primitives, state.views["p_WT"], contact.array)
+        index = nearest_surface(self._structure.solids, state.views["p_WT"], contact.array)
         contact.t_s = state.t_s
         specimen = self._structure.surfaces[index].specimen if index >= 0 else None
         if specimen is None:

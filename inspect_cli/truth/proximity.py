@@ -21,8 +21,8 @@ import numpy as np
 
 from inspect_cli.compiled import kernel
 from inspect_cli.schema.truth import ProximityEffects
-from inspect_cli.spatial.arrays import Indices, Matrix, Points, Structured
-from inspect_cli.spatial.primitives import patch_distance, plane, raycast
+from inspect_cli.spatial.arrays import Indices, Matrix, Points
+from inspect_cli.truth.solids import Solids, cast, count_of, distance_from, on_the_ground
 
 REACH_M = 2.0
 """Beyond this a surface has no effect worth computing."""
@@ -54,7 +54,7 @@ def wall_factor(distance_m: float, radius_m: float) -> float:
 
 @kernel
 def set_thrust_factors(
-    surfaces: Structured,
+    solids: Solids,
     site_xpos: Points,
     site_xmat: Points,
     hubs: Indices,
@@ -67,7 +67,7 @@ def set_thrust_factors(
     """Write the factor of each hub into the first column of ``gains``.
 
     ``hubs`` (n,) are the sites of the rotors, in MuJoCo's arrays of positions and rotations; a
-    rotor's thrust is along its site's z. The first of ``surfaces`` is the ground, no wall.
+    rotor's thrust is along its site's z. The first of ``solids`` is the ground, no wall.
     """
     directions = np.empty((2, 3))
     ranges = np.empty(2)
@@ -76,7 +76,7 @@ def set_thrust_factors(
         for k in range(3):
             directions[0, k] = site_xmat[hubs[i], 3 * k + 2]
             directions[1, k] = -directions[0, k]
-        raycast(surfaces, hub_W, directions, REACH_M, ranges)
+        cast(solids, hub_W, directions, REACH_M, ranges)
         factor = 1.0
         if ceiling and not np.isnan(ranges[0]):
             factor *= ceiling_factor(ranges[0], radius_m)
@@ -84,8 +84,8 @@ def set_thrust_factors(
             factor *= ground_factor(ranges[1], radius_m)
         if wall:
             nearest = REACH_M
-            for j in range(1, surfaces.shape[0]):
-                nearest = min(nearest, abs(patch_distance(surfaces, j, hub_W)))
+            for j in range(1, count_of(solids)):
+                nearest = min(nearest, abs(distance_from(solids, j, hub_W)))
             if nearest < REACH_M:
                 factor *= wall_factor(nearest, radius_m)
         gains[i, 0] = factor
@@ -94,9 +94,8 @@ def set_thrust_factors(
 class Proximity:
     """The effect of the true surfaces and the ground on a vehicle's rotors."""
 
-    def __init__(self, effects: ProximityEffects, primitives: Structured, radius_m: float) -> None:
-        ground = plane(np.zeros(3), np.array([0.0, 0.0, 1.0]), (200.0, 200.0))
-        self._surfaces = np.concatenate([ground, primitives])
+    def __init__(self, effects: ProximityEffects, solids: Solids, radius_m: float) -> None:
+        self._solids = on_the_ground(solids)
         self._effects = effects
         self._radius_m = radius_m
 
@@ -109,7 +108,7 @@ class Proximity:
         """Set each rotor's gain to its factor; see ``set_thrust_factors``."""
         effects = self._effects
         set_thrust_factors(
-            self._surfaces,
+            self._solids,
             site_xpos,
             site_xmat,
             hubs,

@@ -14,6 +14,7 @@ from inspect_cli.spatial.rotations import (
     quaternion_to_matrix,
     roll_pitch_yaw_matrix,
 )
+from inspect_cli.truth.solids import Solids
 
 LENGTHS = {"n_rotors": 4, "n_joints": 0}
 R_BT = np.array([[0.0, 0.0, 1.0], [0.0, 1.0, 0.0], [-1.0, 0.0, 0.0]])
@@ -43,7 +44,7 @@ def state_at(p_WB, R_WB=None) -> State:
 
 
 def camera(primitives, seed=1, **noise) -> TofCamera:
-    return TofCamera(model(**noise), primitives, np.random.default_rng(seed))
+    return TofCamera(model(**noise), Solids(primitives), np.random.default_rng(seed))
 
 
 def in_world(points_D, state):

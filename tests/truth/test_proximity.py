@@ -11,6 +11,7 @@ from inspect_cli.schema.geometry import PlaneShape, Shape
 from inspect_cli.schema.primitives import primitives_of
 from inspect_cli.schema.truth import ProximityEffects
 from inspect_cli.truth.proximity import Proximity, ceiling_factor, ground_factor, wall_factor
+from inspect_cli.truth.solids import Solids
 
 R = 0.1143
 OFF = {"ground": False, "ceiling": False, "wall": False}
@@ -55,7 +56,7 @@ def gain(
     effects: dict[str, bool], shapes: list[Shape], hub_W: list[float], thrust_W: list[float]
 ) -> float:
     """The gain that one rotor's actuator gets, in arrays shaped as MuJoCo's."""
-    proximity = Proximity(ProximityEffects(**{**OFF, **effects}), primitives_of(shapes), R)
+    proximity = Proximity(ProximityEffects(**{**OFF, **effects}), Solids(primitives_of(shapes)), R)
     up = np.array(thrust_W) / np.linalg.norm(thrust_W)
     rotation, _ = Rotation.align_vectors([up], [[0.0, 0.0, 1.0]])
     site_xpos = np.array([[9.0, 9.0, 9.0], hub_W])
@@ -101,6 +102,6 @@ def test_each_effect_is_switched_on_its_own_and_all_multiply() -> None:
     everything = gain(dict.fromkeys(OFF, True), [SOFFIT, near_wall], *place)
     assert everything == pytest.approx(alone["ceiling"] * alone["wall"], rel=1e-12)
     assert gain({}, [SOFFIT, near_wall], *place) == 1.0
-    assert not Proximity(ProximityEffects(**OFF), primitives_of([]), R).any
+    assert not Proximity(ProximityEffects(**OFF), Solids(primitives_of([])), R).any
     for name in OFF:
-        assert Proximity(ProximityEffects(**{**OFF, name: True}), primitives_of([]), R).any
+        assert Proximity(ProximityEffects(**{**OFF, name: True}), Solids(primitives_of([])), R).any

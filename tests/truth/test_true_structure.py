@@ -49,7 +49,7 @@ def test_without_a_truth_the_belief_holds() -> None:
     found = structure({}, WALL, BALL)
     assert [s.shape for s in found.surfaces] == [WALL, BALL]
     assert [s.friction for s in found.surfaces] == [0.5, 0.5]
-    assert found.primitives.shape == (2,)
+    assert found.solids.primitives.shape == (2,)
 
 
 def test_a_true_geometry_replaces_the_belief_and_a_displacement_moves_either() -> None:
@@ -70,8 +70,8 @@ def test_a_true_geometry_replaces_the_belief_and_a_displacement_moves_either() -
 def test_an_absent_surface_is_not_there() -> None:
     found = structure({"s0": TrueSurface(absent=True)}, WALL, BALL)
     assert [s.name for s in found.surfaces] == ["s1"]
-    assert found.primitives.shape == (1,)
-    assert structure({"s0": TrueSurface(absent=True)}, WALL).primitives.shape == (0,)
+    assert found.solids.primitives.shape == (1,)
+    assert structure({"s0": TrueSurface(absent=True)}, WALL).solids.primitives.shape == (0,)
 
 
 def at(truth: StructureTruth, p_WT: list[float]) -> ContactTruth:

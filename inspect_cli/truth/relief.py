@@ -1,0 +1,305 @@
+"""Irregular surfaces as smooth heights over a plane, and the kernels that ask them.
+
+A relief is one element of a ``RELIEF`` array and a stretch of ``nodes`` (n, 2). In its frame S,
+whose origin ``p_WS`` is the middle of its rectangle and whose z_S points to the free side,
+
+    p = p_WS + R_WS [u, v, h(u, v)],      |u| ≤ half_size[0], |v| ≤ half_size[1]
+
+h is the bicubic B-spline through the heights of a regular grid, so it is twice continuously
+differentiable: normals never jump. The surface coordinates (u, v) are those of the plane below,
+not arc lengths. ``nodes`` holds for each node, row by row, its B-spline coefficient and its
+height, m; the height is NaN where nothing is there. A cell of the grid is there if its four
+nodes are. Around the rectangle the grid goes on by ``PAD`` nodes of coefficients alone.
+
+A B-spline and its derivatives are convex combinations of the coefficients and of their
+differences. So h lies within [low, high], its slope |∇h| within ``slope`` and its second
+derivative in any direction within ``curvature``: bounds that are exact, not sampled.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from inspect_cli.compiled import kernel
+from inspect_cli.spatial.arrays import Matrix, Points, Structured, Vector
+
+RELIEF: np.dtype[Any] = np.dtype(
+    [
+        ("p_WS", "<f8", (3,)),
+        ("R_WS", "<f8", (3, 3)),
+        ("half_size", "<f8", (2,)),
+        ("pitch", "<f8", (2,)),
+        ("columns", "<i8"),
+        ("rows", "<i8"),
+        ("first", "<i8"),
+        ("low", "<f8"),
+        ("high", "<f8"),
+        ("slope", "<f8"),
+        ("curvature", "<f8"),
+    ]
+)
+PAD = 8
+"""Nodes around the rectangle: what is beyond them changes h within it by less than 1e-4 of itself,
+since a coefficient's influence fades by 0.27 from node to node."""
+STRIDE = 8
+"""The search for the nearest node looks at every eighth first."""
+FOOT_STEPS, FOOT_M = 40, 1e-10
+RAY_STEPS, RAY_M = 200, 1e-9
+
+
+@kernel
+def height_at(
+    reliefs: Structured, nodes: Matrix, i: int, u: float, v: float
+) -> tuple[float, float, float]:
+    """(h, ∂h/∂u, ∂h/∂v) of relief ``i`` at (u, v) m; beyond the grid that of its border."""
+    columns, rows = reliefs["columns"][i], reliefs["rows"][i]
+    pitch_u, pitch_v = reliefs["pitch"][i, 0], reliefs["pitch"][i, 1]
+    x = min(max(u / pitch_u + 0.5 * (columns - 1), 1.0), columns - 2.000001)
+    y = min(max(v / pitch_v + 0.5 * (rows - 1), 1.0), rows - 2.000001)
+    column, row = int(x), int(y)
+    s, t = x - column, y - row
+    at = reliefs["first"][i] + (row - 1) * columns + column - 1
+    h, h_u, h_v = 0.0, 0.0, 0.0
+    # Cubic B-spline weights of the four nodes around, and their derivatives.
+    a0, a1, a2, a3 = _weights(s)
+    b0, b1, b2, b3 = _slopes(s)
+    w0, w1, w2, w3 = _weights(t)
+    g0, g1, g2, g3 = _slopes(t)
+    for k in range(4):
+        if k == 0:
+            w, g = w0, g0
+        elif k == 1:
+            w, g = w1, g1
+        elif k == 2:
+            w, g = w2, g2
+        else:
+            w, g = w3, g3
+        c0, c1 = nodes[at, 0], nodes[at + 1, 0]
+        c2, c3 = nodes[at + 2, 0], nodes[at + 3, 0]
+        line = a0 * c0 + a1 * c1 + a2 * c2 + a3 * c3
+        h += w * line
+        h_u += w * (b0 * c0 + b1 * c1 + b2 * c2 + b3 * c3)
+        h_v += g * line
+        at += columns
+    return h, h_u / pitch_u, h_v / pitch_v
+
+
+@kernel
+def _weights(s: float) -> tuple[float, float, float, float]:
+    r = 1.0 - s
+    a, d = r * r * r / 6.0, s * s * s / 6.0
+    b = 2.0 / 3.0 - 0.5 * s * s * (2.0 - s)
+    return a, b, 1.0 - a - b - d, d
+
+
+@kernel
+def _slopes(s: float) -> tuple[float, float, float, float]:
+    r = 1.0 - s
+    a, d = -0.5 * r * r, 0.5 * s * s
+    b = s * (1.5 * s - 2.0)
+    return a, b, -a - b - d, d
+
+
+@kernel
+def relief_covers(reliefs: Structured, nodes: Matrix, i: int, u: float, v: float) -> bool:
+    """Whether there is a surface at (u, v)."""
+    half_u, half_v = reliefs["half_size"][i, 0], reliefs["half_size"][i, 1]
+    if not (abs(u) <= half_u and abs(v) <= half_v):
+        return False
+    columns, rows = reliefs["columns"][i], reliefs["rows"][i]
+    column = int(u / reliefs["pitch"][i, 0] + 0.5 * (columns - 1))
+    row = int(v / reliefs["pitch"][i, 1] + 0.5 * (rows - 1))
+    # On the far edges, and by rounding beside the near ones, the cell is the last or the first.
+    column = min(max(column, PAD), columns - PAD - 2)
+    row = min(max(row, PAD), rows - PAD - 2)
+    at = reliefs["first"][i] + row * columns + column
+    total = nodes[at, 1] + nodes[at + 1, 1] + nodes[at + columns, 1] + nodes[at + columns + 1, 1]
+    return not np.isnan(total)
+
+
+@kernel
+def relief_point(reliefs: Structured, nodes: Matrix, i: int, u: float, v: float) -> Vector:
+    """The point (3,) in W, m, at (u, v) m."""
+    h, _, _ = height_at(reliefs, nodes, i, u, v)
+    R = reliefs["R_WS"][i]
+    p = reliefs["p_WS"][i]
+    out = np.empty(3)
+    for k in range(3):
+        out[k] = p[k] + R[k, 0] * u + R[k, 1] * v + R[k, 2] * h
+    return out
+
+
+@kernel
+def relief_normal(reliefs: Structured, nodes: Matrix, i: int, u: float, v: float) -> Vector:
+    """The unit normal (3,) in W at (u, v) m, to the free side: (−h_u, −h_v, 1) in S, normed."""
+    _, h_u, h_v = height_at(reliefs, nodes, i, u, v)
+    R = reliefs["R_WS"][i]
+    size = np.sqrt(1.0 + h_u * h_u + h_v * h_v)
+    out = np.empty(3)
+    for k in range(3):
+        out[k] = (R[k, 2] - R[k, 0] * h_u - R[k, 1] * h_v) / size
+    return out
+
+
+@kernel
+def relief_foot(
+    reliefs: Structured, nodes: Matrix, i: int, p_W: Vector
+) -> tuple[float, float, float, bool]:
+    """(u, v, w, on) of a point: its foot, its distance from it, m, and whether it has one.
+
+    The foot is where p − s(u, v) stands square to the surface: Gauss-Newton on ½|p − s|², from
+    the nearest node on. It contracts by curvature times distance in each step, so a touching tip
+    is within 1e-9 m after a few. w is positive on the free side. Without a foot (beside the mesh,
+    over a hole) it is the nearest node, found among every eighth and then around the best of
+    them, and w > 0 is the distance from that.
+    """
+    R = reliefs["R_WS"][i]
+    p = reliefs["p_WS"][i]
+    dx, dy, dz = p_W[0] - p[0], p_W[1] - p[1], p_W[2] - p[2]
+    a = R[0, 0] * dx + R[1, 0] * dy + R[2, 0] * dz
+    b = R[0, 1] * dx + R[1, 1] * dy + R[2, 1] * dz
+    c = R[0, 2] * dx + R[1, 2] * dy + R[2, 2] * dz
+    u_0, v_0, nearest = _nearest_node(reliefs, nodes, i, a, b, c)
+    u, v = u_0, v_0
+    h, h_u, h_v = height_at(reliefs, nodes, i, u, v)
+    for _ in range(FOOT_STEPS):
+        above = c - h
+        g_u, g_v = a - u + above * h_u, b - v + above * h_v
+        scale = 1.0 + h_u * h_u + h_v * h_v
+        step_u = ((1.0 + h_v * h_v) * g_u - h_u * h_v * g_v) / scale
+        step_v = ((1.0 + h_u * h_u) * g_v - h_u * h_v * g_u) / scale
+        u += step_u
+        v += step_v
+        h, h_u, h_v = height_at(reliefs, nodes, i, u, v)
+        if abs(step_u) + abs(step_v) < FOOT_M:
+            break
+    above = c - h
+    distance = np.sqrt((a - u) * (a - u) + (b - v) * (b - v) + above * above)
+    # No farther than the node from which the search set out, or it has strayed.
+    if distance <= nearest + FOOT_M and relief_covers(reliefs, nodes, i, u, v):
+        return u, v, np.copysign(distance, above), True
+    return u_0, v_0, nearest, False
+
+
+@kernel
+def _nearest_node(
+    reliefs: Structured, nodes: Matrix, i: int, a: float, b: float, c: float
+) -> tuple[float, float, float]:
+    """(u, v, distance) of the node nearest to (a, b, c) m in S."""
+    columns, rows = reliefs["columns"][i], reliefs["rows"][i]
+    pitch_u, pitch_v = reliefs["pitch"][i, 0], reliefs["pitch"][i, 1]
+    half_column, half_row = 0.5 * (columns - 1), 0.5 * (rows - 1)
+    first = reliefs["first"][i]
+    best, best_row, best_column = np.inf, PAD, PAD
+    top, bottom, left, right, stride = PAD, rows - PAD, PAD, columns - PAD, STRIDE
+    for _ in range(2):
+        for row in range(top, bottom, stride):
+            dv = b - (row - half_row) * pitch_v
+            for column in range(left, right, stride):
+                du = a - (column - half_column) * pitch_u
+                dh = c - nodes[first + row * columns + column, 1]
+                square = du * du + dv * dv + dh * dh
+                if square < best:  # never where the height is NaN
+                    best, best_row, best_column = square, row, column
+        top, bottom = max(best_row - STRIDE, PAD), min(best_row + STRIDE + 1, rows - PAD)
+        left = max(best_column - STRIDE, PAD)
+        right = min(best_column + STRIDE + 1, columns - PAD)
+        stride = 1
+    u, v = (best_column - half_column) * pitch_u, (best_row - half_row) * pitch_v
+    return u, v, np.sqrt(best)
+
+
+@kernel
+def cast_on_reliefs(
+    reliefs: Structured,
+    nodes: Matrix,
+    origin_W: Vector,
+    directions_W: Points,
+    max_range: float,
+    ranges: Vector,
+) -> None:
+    """Shorten ``ranges`` (n,) to the hits of rays from ``origin_W`` on reliefs, from both sides.
+
+    Nothing is looked for beyond ``max_range``.
+    """
+    for i in range(reliefs.shape[0]):
+        R = reliefs["R_WS"][i]
+        p = reliefs["p_WS"][i]
+        o, d = np.empty(3), np.empty(3)
+        for m in range(3):
+            o[m] = 0.0
+            for n in range(3):
+                o[m] += R[n, m] * (origin_W[n] - p[n])
+        for k in range(ranges.size):
+            for m in range(3):
+                d[m] = (
+                    R[0, m] * directions_W[k, 0]
+                    + R[1, m] * directions_W[k, 1]
+                    + R[2, m] * directions_W[k, 2]
+                )
+            t = _ray_on_relief(reliefs, nodes, i, o, d, min(ranges[k], max_range))
+            ranges[k] = min(ranges[k], t)
+
+
+@kernel
+def _ray_on_relief(
+    reliefs: Structured, nodes: Matrix, i: int, o: Vector, d: Vector, farthest: float
+) -> float:
+    """Where the ray o + t d in S first meets relief ``i``, m; infinite beyond ``farthest``.
+
+    Along the ray g(t) = z(t) − h(u(t), v(t)) has |g″| ≤ M = curvature · (d_u² + d_v²). So |g| stays
+    above |g| − |g|′τ − ½ M τ² for a while, and the step to this parabola's zero never passes a
+    crossing; near one it is Newton's step. Where the slope's bound allows a longer one it is taken.
+    """
+    begin, end = _span_in_box(reliefs, i, o, d, farthest)
+    if begin > end:
+        return np.inf
+    across = d[0] * d[0] + d[1] * d[1]
+    bend = reliefs["curvature"][i] * across
+    rate = abs(d[2]) + reliefs["slope"][i] * np.sqrt(across)
+    least = 0.25 * min(reliefs["pitch"][i, 0], reliefs["pitch"][i, 1])
+    t = begin
+    for _ in range(RAY_STEPS):
+        u, v = o[0] + t * d[0], o[1] + t * d[1]
+        h, h_u, h_v = height_at(reliefs, nodes, i, u, v)
+        g = o[2] + t * d[2] - h
+        if abs(g) <= RAY_M:
+            if relief_covers(reliefs, nodes, i, u, v):
+                return t
+            t += least  # through a hole
+        else:
+            approach = h_u * d[0] + h_v * d[1] - d[2]
+            approach = approach if g > 0.0 else -approach
+            root = np.sqrt(approach * approach + 2.0 * bend * abs(g))
+            # Of the two ways to write the zero, the one without cancellation.
+            if approach > 0.0:
+                step = 2.0 * abs(g) / (approach + root)
+            else:
+                step = (root - approach) / bend if bend > 0.0 else np.inf
+            t += max(step, abs(g) / rate)
+        if t > end:
+            return np.inf
+    return np.inf
+
+
+@kernel
+def _span_in_box(
+    reliefs: Structured, i: int, o: Vector, d: Vector, farthest: float
+) -> tuple[float, float]:
+    """(begin, end) of the ray o + t d, 0 ≤ t ≤ farthest, in the box around relief ``i``."""
+    begin, end = 0.0, farthest
+    for m in range(3):
+        if m == 2:
+            low, high = reliefs["low"][i], reliefs["high"][i]
+        else:
+            high = reliefs["half_size"][i, m]
+            low = -high
+        if d[m] == 0.0:
+            if not low <= o[m] <= high:
+                return 1.0, 0.0
+            continue
+        t_1, t_2 = (low - o[m]) / d[m], (high - o[m]) / d[m]
+        begin, end = max(begin, min(t_1, t_2)), min(end, max(t_1, t_2))
+    return begin, end
