@@ -13,7 +13,12 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
-from scipy.ndimage import distance_transform_edt, spline_filter
+from scipy.ndimage import (
+    binary_dilation,
+    correlate1d,
+    distance_transform_edt,
+    spline_filter,
+)
 
 from inspect_cli.compiled import kernel
 from inspect_cli.errors import GeometryError
@@ -32,13 +37,15 @@ TWO_SHEETS_M = 0.002
 """Heights at one place that differ by more than this belong to two sheets."""
 ONE_WAY = 0.99
 """Share of a mesh's area, seen along the normal, that has to turn to the same side."""
+PLANE_NODES = 3
+CURVATURE_MARGIN = 1.25
 INSIDE = -1e-9
 """Barycentric: a node on an edge belongs to both triangles."""
 
 
 @dataclass(frozen=True)
 class MeshRelief:
-    """A relief (1,), its nodes (n, 2), and how far the mesh departs from it at most, m."""
+    """A relief (1,), its nodes (2, n), and how far the mesh departs from it at most, m."""
 
     row: Structured
     nodes: Matrix
@@ -80,7 +87,7 @@ def relief_of(corners: Points, normal: Vector, pitch_m: float) -> MeshRelief:
     row["half_size"], row["pitch"] = 0.5 * (high - low)[:2], pitch
     row["columns"], row["rows"] = columns, rows
     _set_bounds(row, coefficients, np.isfinite(padded), pitch)
-    nodes = np.column_stack([coefficients.ravel(), padded.ravel()])
+    nodes = np.stack([coefficients.ravel(), padded.ravel()])
     deviation_m = _deviation(row, nodes, local)
     if deviation_m > pitch_m:
         raise GeometryError(
@@ -139,7 +146,8 @@ def _cut_at_nodes(local: Points, cells: Vector, pitch: Vector) -> Matrix:
             hint="cut the sheet that is touched from the mesh, or give another 'normal'",
         )
     known = np.isfinite(apart)
-    heights: Matrix = np.where(known, 0.5 * (lowest + highest), np.nan)
+    heights = np.full(shape, np.nan)
+    heights[known] = 0.5 * (lowest[known] + highest[known])
     if not (known[:-1, :-1] & known[1:, :-1] & known[:-1, 1:] & known[1:, 1:]).any():
         raise GeometryError(
             "no cell of the grid is covered by the mesh",
@@ -175,45 +183,64 @@ def cut_triangles(local: Points, pitch: Vector, lowest: Matrix, highest: Matrix)
 
 
 def _continued(heights: Matrix) -> Matrix:
-    """Heights without NaN: continued straight ahead for ``PAD`` nodes, then as the nearest."""
+    """Heights without NaN: continued for ``PAD`` nodes as a plane, farther out as the nearest.
+
+    Ring by ring, a missing node lies on the plane that fits those within ``PLANE_NODES`` of it
+    best, weighted by their nearness: it follows the slope without a kink, which would ring on
+    into what is known.
+    """
     filled = heights
     for _ in range(PAD):
-        wide = np.pad(filled, 2, constant_values=np.nan)
-        rows, columns = filled.shape
-        guesses = [
-            2.0 * wide[2 + i : 2 + i + rows, 2 + j : 2 + j + columns]
-            - wide[2 + 2 * i : 2 + 2 * i + rows, 2 + 2 * j : 2 + 2 * j + columns]
-            for i, j in ((0, 1), (0, -1), (1, 0), (-1, 0), (1, 1), (1, -1), (-1, 1), (-1, -1))
-        ]
-        count = np.sum(np.isfinite(guesses), axis=0)
-        mean = np.nansum(guesses, axis=0) / np.maximum(count, 1)
-        filled = np.where(np.isnan(filled) & (count > 0), mean, filled)
+        known = np.isfinite(filled)
+        ring = np.argwhere(binary_dilation(known) & ~known)
+        if len(ring) == 0:
+            break
+        wide = np.pad(filled, PLANE_NODES, constant_values=np.nan)
+        reach = np.arange(2 * PLANE_NODES + 1)
+        window = wide[
+            ring[:, 0, None, None] + reach[:, None], ring[:, 1, None, None] + reach
+        ].reshape(len(ring), -1)
+        filled = filled.copy()
+        filled[ring[:, 0], ring[:, 1]] = _planes_at_middle(window)
     nearest = distance_transform_edt(np.isnan(filled), return_distances=False, return_indices=True)
     continued: Matrix = filled[tuple(nearest)]
     return continued
 
 
+def _planes_at_middle(window: Matrix) -> Vector:
+    """In the middle of square windows (n, k²) with gaps, the height of the plane that fits best."""
+    reach = np.arange(2 * PLANE_NODES + 1) - PLANE_NODES
+    y, x = (axis.ravel() for axis in np.meshgrid(reach, reach, indexing="ij"))
+    basis = np.stack([np.ones_like(x), x, y], axis=-1).astype(np.float64)
+    nearness = np.exp(-0.5 * (x * x + y * y))
+    weight = np.where(np.isnan(window), 0.0, nearness)
+    height = np.where(np.isnan(window), 0.0, window)
+    # A faint ridge on the slopes keeps a plane through one line of nodes from tipping over.
+    normal = np.einsum("nk,ki,kj->nij", weight, basis, basis) + np.diag([0.0, 1e-6, 1e-6])
+    right = np.einsum("nk,ki->ni", weight * height, basis)
+    at_middle: Vector = np.linalg.solve(normal, right[..., None])[:, 0, 0]
+    return at_middle
+
+
 def _set_bounds(row: Structured, c: Matrix, known: Mask, pitch: Vector) -> None:
-    """Bounds of height, slope and curvature from the coefficients that reach a known cell."""
-    near = np.zeros_like(known)
-    for i in (-2, -1, 0, 1, 2):
-        for j in (-2, -1, 0, 1, 2):
-            near |= np.roll(known, (i, j), (0, 1))
-    used = c[near]
-    row["low"], row["high"] = used.min(), used.max()
-    inner = near[1:-1, 1:-1]
-    d_u = np.maximum(np.abs(c[1:-1, 2:] - c[1:-1, 1:-1]), np.abs(c[1:-1, 1:-1] - c[1:-1, :-2]))
-    d_v = np.maximum(np.abs(c[2:, 1:-1] - c[1:-1, 1:-1]), np.abs(c[1:-1, 1:-1] - c[:-2, 1:-1]))
-    row["slope"] = np.hypot(d_u[inner].max() / pitch[0], d_v[inner].max() / pitch[1])
-    h_uu = np.abs(np.diff(c, 2, axis=1)[1:-1])[inner].max() / pitch[0] ** 2
-    h_vv = np.abs(np.diff(c, 2, axis=0)[:, 1:-1])[inner].max() / pitch[1] ** 2
-    twist = np.abs(np.diff(np.diff(c, axis=0), axis=1))
-    around = np.maximum(
-        np.maximum(twist[1:, 1:], twist[:-1, 1:]), np.maximum(twist[1:, :-1], twist[:-1, :-1])
+    """Bounds of height, slope and curvature of what is there."""
+    near = binary_dilation(known, np.ones((5, 5)))  # the coefficients that reach a known cell
+    row["low"], row["high"] = c[near].min(), c[near].max()
+    d_u = np.abs(np.diff(c, axis=1))[near[:, 1:] & near[:, :-1]].max() / pitch[0]
+    d_v = np.abs(np.diff(c, axis=0))[near[1:] & near[:-1]].max() / pitch[1]
+    row["slope"] = np.hypot(d_u, d_v)
+    # Second derivatives at the nodes, from the B-spline's values (1, 4, 1)/6 and slopes (−1, 0, 1)/2
+    value, slope, bend = (
+        np.array([1.0, 4.0, 1.0]) / 6.0,
+        np.array([-0.5, 0.0, 0.5]),
+        [1.0, -2.0, 1.0],
     )
-    h_uv = around[inner].max() / (pitch[0] * pitch[1])
-    # The largest eigenvalue is at most the Frobenius norm.
-    row["curvature"] = np.sqrt(h_uu**2 + 2.0 * h_uv**2 + h_vv**2)
+    h_uu = correlate1d(correlate1d(c, bend, 1), value, 0) / pitch[0] ** 2
+    h_vv = correlate1d(correlate1d(c, bend, 0), value, 1) / pitch[1] ** 2
+    h_uv = correlate1d(correlate1d(c, slope, 0), slope, 1) / (pitch[0] * pitch[1])
+    # The largest eigenvalue in size of [[h_uu, h_uv], [h_uv, h_vv]].
+    largest = 0.5 * np.abs(h_uu + h_vv) + np.hypot(0.5 * (h_uu - h_vv), h_uv)
+    row["curvature"] = CURVATURE_MARGIN * largest[known].max()
 
 
 def _deviation(row: Structured, nodes: Matrix, local: Points) -> float:

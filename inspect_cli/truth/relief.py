@@ -1,6 +1,6 @@
 """Irregular surfaces as smooth heights over a plane, and the kernels that ask them.
 
-A relief is one element of a ``RELIEF`` array and a stretch of ``nodes`` (n, 2). In its frame S,
+A relief is one element of a ``RELIEF`` array and a stretch of ``nodes`` (2, n). In its frame S,
 whose origin ``p_WS`` is the middle of its rectangle and whose z_S points to the free side,
 
     p = p_WS + R_WS [u, v, h(u, v)],      |u| ≤ half_size[0], |v| ≤ half_size[1]
@@ -11,9 +11,10 @@ not arc lengths. ``nodes`` holds for each node, row by row, its B-spline coeffic
 height, m; the height is NaN where nothing is there. A cell of the grid is there if its four
 nodes are. Around the rectangle the grid goes on by ``PAD`` nodes of coefficients alone.
 
-A B-spline and its derivatives are convex combinations of the coefficients and of their
-differences. So h lies within [low, high], its slope |∇h| within ``slope`` and its second
-derivative in any direction within ``curvature``: bounds that are exact, not sampled.
+A B-spline and its first derivatives are convex combinations of the coefficients and of their
+differences: so h lies within [low, high] and its slope |∇h| within ``slope``. ``curvature`` bounds
+the second derivative in every direction: along each coordinate that runs straight from node to
+node, so the largest one is at a node, up to what a margin covers.
 """
 
 from __future__ import annotations
@@ -46,7 +47,7 @@ since a coefficient's influence fades by 0.27 from node to node."""
 STRIDE = 8
 """The search for the nearest node looks at every eighth first."""
 FOOT_STEPS, FOOT_M = 40, 1e-10
-RAY_STEPS, RAY_M = 200, 1e-9
+RAY_STEPS, RAY_M = 200, 1e-6
 
 
 @kernel
@@ -65,19 +66,8 @@ def height_at(
     # Cubic B-spline weights of the four nodes around, and their derivatives.
     a0, a1, a2, a3 = _weights(s)
     b0, b1, b2, b3 = _slopes(s)
-    w0, w1, w2, w3 = _weights(t)
-    g0, g1, g2, g3 = _slopes(t)
-    for k in range(4):
-        if k == 0:
-            w, g = w0, g0
-        elif k == 1:
-            w, g = w1, g1
-        elif k == 2:
-            w, g = w2, g2
-        else:
-            w, g = w3, g3
-        c0, c1 = nodes[at, 0], nodes[at + 1, 0]
-        c2, c3 = nodes[at + 2, 0], nodes[at + 3, 0]
+    for w, g in zip(_weights(t), _slopes(t)):  # noqa: B905  (compiled without strict)
+        c0, c1, c2, c3 = nodes[0, at], nodes[0, at + 1], nodes[0, at + 2], nodes[0, at + 3]
         line = a0 * c0 + a1 * c1 + a2 * c2 + a3 * c3
         h += w * line
         h_u += w * (b0 * c0 + b1 * c1 + b2 * c2 + b3 * c3)
@@ -115,7 +105,7 @@ def relief_covers(reliefs: Structured, nodes: Matrix, i: int, u: float, v: float
     column = min(max(column, PAD), columns - PAD - 2)
     row = min(max(row, PAD), rows - PAD - 2)
     at = reliefs["first"][i] + row * columns + column
-    total = nodes[at, 1] + nodes[at + 1, 1] + nodes[at + columns, 1] + nodes[at + columns + 1, 1]
+    total = nodes[1, at] + nodes[1, at + 1] + nodes[1, at + columns] + nodes[1, at + columns + 1]
     return not np.isnan(total)
 
 
@@ -199,7 +189,7 @@ def _nearest_node(
             dv = b - (row - half_row) * pitch_v
             for column in range(left, right, stride):
                 du = a - (column - half_column) * pitch_u
-                dh = c - nodes[first + row * columns + column, 1]
+                dh = c - nodes[1, first + row * columns + column]
                 square = du * du + dv * dv + dh * dh
                 if square < best:  # never where the height is NaN
                     best, best_row, best_column = square, row, column
@@ -250,8 +240,10 @@ def _ray_on_relief(
     """Where the ray o + t d in S first meets relief ``i``, m; infinite beyond ``farthest``.
 
     Along the ray g(t) = z(t) − h(u(t), v(t)) has |g″| ≤ M = curvature · (d_u² + d_v²). So |g| stays
-    above |g| − |g|′τ − ½ M τ² for a while, and the step to this parabola's zero never passes a
-    crossing; near one it is Newton's step. Where the slope's bound allows a longer one it is taken.
+    above |g| − |g|′τ − ½ M τ² for a while, and the step to this parabola's zero passes no crossing;
+    near one it is Newton's step, which ends the search once it is good to M τ² / |g|′ ≤ RAY_M. Where
+    the slope's bound allows a longer step it is taken. Should a step have passed a crossing after
+    all, half of it is taken back.
     """
     begin, end = _span_in_box(reliefs, i, o, d, farthest)
     if begin > end:
@@ -260,25 +252,33 @@ def _ray_on_relief(
     bend = reliefs["curvature"][i] * across
     rate = abs(d[2]) + reliefs["slope"][i] * np.sqrt(across)
     least = 0.25 * min(reliefs["pitch"][i, 0], reliefs["pitch"][i, 1])
-    t = begin
+    t, step, side = begin, 0.0, 0.0
     for _ in range(RAY_STEPS):
-        u, v = o[0] + t * d[0], o[1] + t * d[1]
-        h, h_u, h_v = height_at(reliefs, nodes, i, u, v)
+        h, h_u, h_v = height_at(reliefs, nodes, i, o[0] + t * d[0], o[1] + t * d[1])
         g = o[2] + t * d[2] - h
-        if abs(g) <= RAY_M:
-            if relief_covers(reliefs, nodes, i, u, v):
-                return t
-            t += least  # through a hole
+        if g * side < 0.0:
+            step *= 0.5
+            t -= step
+            continue
+        side = np.copysign(1.0, g)
+        approach = side * (h_u * d[0] + h_v * d[1] - d[2])
+        newton = abs(g) / approach if approach > 0.0 else np.inf
+        if bend * newton * newton <= RAY_M * approach:
+            hit = t + newton
+            if hit > end:
+                return np.inf
+            if relief_covers(reliefs, nodes, i, o[0] + hit * d[0], o[1] + hit * d[1]):
+                return hit
+            t, side = hit + least, 0.0  # through a hole
+            continue
+        root = np.sqrt(approach * approach + 2.0 * bend * abs(g))
+        # Of the two ways to write the zero, the one without cancellation.
+        if approach > 0.0:
+            step = 2.0 * abs(g) / (approach + root)
         else:
-            approach = h_u * d[0] + h_v * d[1] - d[2]
-            approach = approach if g > 0.0 else -approach
-            root = np.sqrt(approach * approach + 2.0 * bend * abs(g))
-            # Of the two ways to write the zero, the one without cancellation.
-            if approach > 0.0:
-                step = 2.0 * abs(g) / (approach + root)
-            else:
-                step = (root - approach) / bend if bend > 0.0 else np.inf
-            t += max(step, abs(g) / rate)
+            step = (root - approach) / bend if bend > 0.0 else np.inf
+        step = max(step, abs(g) / rate)
+        t += step
         if t > end:
             return np.inf
     return np.inf

@@ -34,7 +34,7 @@ class Solids(NamedTuple):
 
     primitives: Structured
     reliefs: Structured = np.zeros(0, RELIEF)
-    nodes: Matrix = np.zeros((0, 2))
+    nodes: Matrix = np.zeros((2, 0))
 
 
 def on_the_ground(solids: Solids) -> Solids:
@@ -46,11 +46,11 @@ def on_the_ground(solids: Solids) -> Solids:
 def joined_reliefs(parts: Sequence[tuple[Structured, Matrix]]) -> tuple[Structured, Matrix]:
     """Reliefs (1,) with nodes of their own as one array (n,) with the nodes of all."""
     if not parts:
-        return np.zeros(0, RELIEF), np.zeros((0, 2))
+        return np.zeros(0, RELIEF), np.zeros((2, 0))
     rows = np.concatenate([row for row, _ in parts])
-    sizes = [len(nodes) for _, nodes in parts]
+    sizes = [nodes.shape[1] for _, nodes in parts]
     rows["first"] = np.cumsum([0, *sizes[:-1]])
-    return rows, np.concatenate([nodes for _, nodes in parts])
+    return rows, np.concatenate([nodes for _, nodes in parts], axis=1)
 
 
 @kernel
