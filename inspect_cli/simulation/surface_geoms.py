@@ -25,6 +25,8 @@ WALL_THICKNESS_M = 0.2
 SHELL_SAGITTA_M = 0.01
 FACET_M = 0.2
 MOST_FACETS = 16
+OVERLAP = 1.1
+"""Facets are so much wider than their share, since tangents of a hollow meet beyond it."""
 PLATE_HALF_M = 0.25
 """Half the width of a plate; the tip slides less than a millimetre between two of its places."""
 TOUCHABLE, SHELL_ONLY = 1, 2
@@ -87,7 +89,8 @@ def _add_facets(spec: mujoco.MjSpec, name: str, solids: Solids, index: int) -> N
             if index >= n and not relief_covers(solids.reliefs, solids.nodes, local, *uv):
                 continue
             # (u, v) of a relief are not arc lengths; those of a sphere are where they are longest.
-            box = size * _stretch(solids, index, uv) if index >= n else size
+            arcs = size * _stretch(solids, index, uv) if index >= n else size
+            box = OVERLAP * arcs
             _add_box(spec, f"{name}:{i}:{j}", solids, index, uv, box, SHELL_ONLY)
 
 

@@ -39,6 +39,8 @@ ONE_WAY = 0.99
 """Share of a mesh's area, seen along the normal, that has to turn to the same side."""
 PLANE_NODES = 3
 CURVATURE_MARGIN = 1.25
+ROUNDING_M = 1e-6
+"""A level mesh must not lie in a box without height."""
 INSIDE = -1e-9
 """Barycentric: a node on an edge belongs to both triangles."""
 
@@ -225,16 +227,13 @@ def _planes_at_middle(window: Matrix) -> Vector:
 def _set_bounds(row: Structured, c: Matrix, known: Mask, pitch: Vector) -> None:
     """Bounds of height, slope and curvature of what is there."""
     near = binary_dilation(known, np.ones((5, 5)))  # the coefficients that reach a known cell
-    row["low"], row["high"] = c[near].min(), c[near].max()
+    row["low"], row["high"] = c[near].min() - ROUNDING_M, c[near].max() + ROUNDING_M
     d_u = np.abs(np.diff(c, axis=1))[near[:, 1:] & near[:, :-1]].max() / pitch[0]
     d_v = np.abs(np.diff(c, axis=0))[near[1:] & near[:-1]].max() / pitch[1]
     row["slope"] = np.hypot(d_u, d_v)
-    # Second derivatives at the nodes, from the B-spline's values (1, 4, 1)/6 and slopes (−1, 0, 1)/2
-    value, slope, bend = (
-        np.array([1.0, 4.0, 1.0]) / 6.0,
-        np.array([-0.5, 0.0, 0.5]),
-        [1.0, -2.0, 1.0],
-    )
+    # Second derivatives at the nodes: a B-spline is (1, 4, 1)/6 there, its slope (−1, 0, 1)/2.
+    value = np.array([1.0, 4.0, 1.0]) / 6.0
+    slope, bend = np.array([-0.5, 0.0, 0.5]), np.array([1.0, -2.0, 1.0])
     h_uu = correlate1d(correlate1d(c, bend, 1), value, 0) / pitch[0] ** 2
     h_vv = correlate1d(correlate1d(c, bend, 0), value, 1) / pitch[1] ** 2
     h_uv = correlate1d(correlate1d(c, slope, 0), slope, 1) / (pitch[0] * pitch[1])

@@ -239,11 +239,11 @@ def _ray_on_relief(
 ) -> float:
     """Where the ray o + t d in S first meets relief ``i``, m; infinite beyond ``farthest``.
 
-    Along the ray g(t) = z(t) − h(u(t), v(t)) has |g″| ≤ M = curvature · (d_u² + d_v²). So |g| stays
-    above |g| − |g|′τ − ½ M τ² for a while, and the step to this parabola's zero passes no crossing;
-    near one it is Newton's step, which ends the search once it is good to M τ² / |g|′ ≤ RAY_M. Where
-    the slope's bound allows a longer step it is taken. Should a step have passed a crossing after
-    all, half of it is taken back.
+    Along the ray g(t) = z(t) − h(u(t), v(t)) has |g″| ≤ M = curvature · (d_u² + d_v²). So |g|
+    stays above |g| − |g|′τ − ½ M τ² for a while, and the step to this parabola's zero passes no
+    crossing. Near one it is Newton's step, which ends the search once it is good to
+    M τ² / |g|′ ≤ RAY_M. Where the slope's bound allows a longer step it is taken. Should a step
+    have passed a crossing after all, half of it is taken back.
     """
     begin, end = _span_in_box(reliefs, i, o, d, farthest)
     if begin > end:
