@@ -23,8 +23,8 @@ from inspect_cli.truth.solids import Solids, normal_on, point_on
 
 WALL_THICKNESS_M = 0.2
 SHELL_SAGITTA_M = 0.01
-FACET_M = 0.2
-MOST_FACETS = 16
+FACET_M = 0.3
+MOST_FACETS = 12
 OVERLAP = 1.1
 """Facets are so much wider than their share, since tangents of a hollow meet beyond it."""
 PLATE_HALF_M = 0.25

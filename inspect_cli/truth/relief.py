@@ -46,7 +46,7 @@ PAD = 8
 since a coefficient's influence fades by 0.27 from node to node."""
 STRIDE = 8
 """The search for the nearest node looks at every eighth first."""
-FOOT_STEPS, FOOT_M = 40, 1e-10
+FOOT_STEPS, FOOT_M = 40, 1e-8
 RAY_STEPS, RAY_M = 200, 1e-6
 
 
@@ -57,12 +57,21 @@ def height_at(
     """(h, ∂h/∂u, ∂h/∂v) of relief ``i`` at (u, v) m; beyond the grid that of its border."""
     columns, rows = reliefs["columns"][i], reliefs["rows"][i]
     pitch_u, pitch_v = reliefs["pitch"][i, 0], reliefs["pitch"][i, 1]
-    x = min(max(u / pitch_u + 0.5 * (columns - 1), 1.0), columns - 2.000001)
-    y = min(max(v / pitch_v + 0.5 * (rows - 1), 1.0), rows - 2.000001)
+    x = _within(u / pitch_u + 0.5 * (columns - 1), columns)
+    y = _within(v / pitch_v + 0.5 * (rows - 1), rows)
+    h, h_x, h_y = _spline(nodes, reliefs["first"][i], columns, x, y)
+    return h, h_x / pitch_u, h_y / pitch_v
+
+
+@kernel
+def _spline(
+    nodes: Matrix, first: int, columns: int, x: float, y: float
+) -> tuple[float, float, float]:
+    """(h, ∂h/∂x, ∂h/∂y) in column ``x`` and row ``y``, which lie within the grid."""
     column, row = int(x), int(y)
     s, t = x - column, y - row
-    at = reliefs["first"][i] + (row - 1) * columns + column - 1
-    h, h_u, h_v = 0.0, 0.0, 0.0
+    at = first + (row - 1) * columns + column - 1
+    h, h_x, h_y = 0.0, 0.0, 0.0
     # Cubic B-spline weights of the four nodes around, and their derivatives.
     a0, a1, a2, a3 = _weights(s)
     b0, b1, b2, b3 = _slopes(s)
@@ -70,10 +79,18 @@ def height_at(
         c0, c1, c2, c3 = nodes[0, at], nodes[0, at + 1], nodes[0, at + 2], nodes[0, at + 3]
         line = a0 * c0 + a1 * c1 + a2 * c2 + a3 * c3
         h += w * line
-        h_u += w * (b0 * c0 + b1 * c1 + b2 * c2 + b3 * c3)
-        h_v += g * line
+        h_x += w * (b0 * c0 + b1 * c1 + b2 * c2 + b3 * c3)
+        h_y += g * line
         at += columns
-    return h, h_u / pitch_u, h_v / pitch_v
+    return h, h_x, h_y
+
+
+@kernel
+def _within(x: float, count: int) -> float:
+    """``x`` in a cell that has a node on either side; also of NaN, which must not index memory."""
+    if not x >= 1.0:
+        return 1.0
+    return min(x, count - 2.000001)
 
 
 @kernel
@@ -152,6 +169,8 @@ def relief_foot(
     b = R[0, 1] * dx + R[1, 1] * dy + R[2, 1] * dz
     c = R[0, 2] * dx + R[1, 2] * dy + R[2, 2] * dz
     u_0, v_0, nearest = _nearest_node(reliefs, nodes, i, a, b, c)
+    far_u = reliefs["half_size"][i, 0] + PAD * reliefs["pitch"][i, 0]
+    far_v = reliefs["half_size"][i, 1] + PAD * reliefs["pitch"][i, 1]
     u, v = u_0, v_0
     h, h_u, h_v = height_at(reliefs, nodes, i, u, v)
     for _ in range(FOOT_STEPS):
@@ -160,8 +179,9 @@ def relief_foot(
         scale = 1.0 + h_u * h_u + h_v * h_v
         step_u = ((1.0 + h_v * h_v) * g_u - h_u * h_v * g_v) / scale
         step_v = ((1.0 + h_u * h_u) * g_v - h_u * h_v * g_u) / scale
-        u += step_u
-        v += step_v
+        # Kept near the grid: far from the surface the steps may stray.
+        u = min(max(u + step_u, -far_u), far_u)
+        v = min(max(v + step_v, -far_v), far_v)
         h, h_u, h_v = height_at(reliefs, nodes, i, u, v)
         if abs(step_u) + abs(step_v) < FOOT_M:
             break
@@ -246,22 +266,27 @@ def _ray_on_relief(
     have passed a crossing after all, half of it is taken back.
     """
     begin, end = _span_in_box(reliefs, i, o, d, farthest)
-    if begin > end:
+    if begin > end or np.isnan(o.sum() + d.sum()):  # what is not a number must not index memory
         return np.inf
     across = d[0] * d[0] + d[1] * d[1]
     bend = reliefs["curvature"][i] * across
     rate = abs(d[2]) + reliefs["slope"][i] * np.sqrt(across)
-    least = 0.25 * min(reliefs["pitch"][i, 0], reliefs["pitch"][i, 1])
+    pitch_u, pitch_v = reliefs["pitch"][i, 0], reliefs["pitch"][i, 1]
+    first, columns = reliefs["first"][i], reliefs["columns"][i]
+    # The ray in columns and rows, where the box keeps it within the grid.
+    x_0, dx = o[0] / pitch_u + 0.5 * (columns - 1), d[0] / pitch_u
+    y_0, dy = o[1] / pitch_v + 0.5 * (reliefs["rows"][i] - 1), d[1] / pitch_v
+    z_0, dz = o[2], d[2]
     t, step, side = begin, 0.0, 0.0
     for _ in range(RAY_STEPS):
-        h, h_u, h_v = height_at(reliefs, nodes, i, o[0] + t * d[0], o[1] + t * d[1])
-        g = o[2] + t * d[2] - h
+        h, h_x, h_y = _spline(nodes, first, columns, x_0 + t * dx, y_0 + t * dy)
+        g = z_0 + t * dz - h
         if g * side < 0.0:
             step *= 0.5
             t -= step
             continue
         side = np.copysign(1.0, g)
-        approach = side * (h_u * d[0] + h_v * d[1] - d[2])
+        approach = side * (h_x * dx + h_y * dy - dz)
         newton = abs(g) / approach if approach > 0.0 else np.inf
         if bend * newton * newton <= RAY_M * approach:
             hit = t + newton
@@ -269,7 +294,9 @@ def _ray_on_relief(
                 return np.inf
             if relief_covers(reliefs, nodes, i, o[0] + hit * d[0], o[1] + hit * d[1]):
                 return hit
-            t, side = hit + least, 0.0  # through a hole
+            t, side = hit + 0.25 * pitch_u, 0.0  # through a hole
+            if t > end:
+                return np.inf
             continue
         root = np.sqrt(approach * approach + 2.0 * bend * abs(g))
         # Of the two ways to write the zero, the one without cancellation.

@@ -313,7 +313,7 @@ def test_facets_for_the_shell_are_few_and_stand_off_as_stated(
     structure = structure_of([shape])
     model = weightless(vehicle, structure)
     facets = [g for g in range(model.ngeom) if model.geom(g).name.startswith("s0:")]
-    assert 4 < len(facets) <= 64
+    assert 4 < len(facets) <= MOST_FACETS**2
     standing = stand_off(model, structure, 0.98)
     assert standing.min() > -1e-6
     assert standing.max() < SHELL_SAGITTA_M + 1e-4
@@ -325,7 +325,7 @@ def test_facets_of_the_vault_are_few_and_three_centimetres_true(
     structure = vault_of(vault, 0.5)
     model = weightless(vehicle, structure)
     facets = [g for g in range(model.ngeom) if model.geom(g).name.startswith("vault:")]
-    assert 100 < len(facets) <= MOST_FACETS**2
+    assert 80 < len(facets) <= MOST_FACETS**2
     assert np.abs(stand_off(model, structure, 0.85)).max() < 0.03
 
 
