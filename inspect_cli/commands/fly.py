@@ -89,6 +89,7 @@ def _fly(
     with LogWriter(folder / LOG_NAME, CORE_RECORDS, lengths) as log:
         _attach(log, loaded, plan, seed)
         log.scene(0.0, plan)
+        _note_reliefs(log, structure)
         flight = Flight(vehicle, plan, loaded.truth, structure, seed, log)
         report = (lambda t_s: progress(t_s, plan.duration_s)) if progress else None
         try:
@@ -98,6 +99,16 @@ def _fly(
             raise FlightInterrupted(folder) from None
         log.close(ending.status, ending.reason)
     return ending
+
+
+def _note_reliefs(log: LogWriter, structure: StructureTruth) -> None:
+    """Say in the log how true the heights are that stand for a mesh."""
+    for surface in structure.surfaces:
+        if surface.relief is not None:
+            pitch = max(surface.relief.row["pitch"][0])
+            departs_mm = 1e3 * surface.relief.deviation_m
+            text = f"truth: '{surface.name}' is a mesh, flown as heights every {pitch:.3g} m"
+            log.event(0.0, "info", f"{text} that depart from it by {departs_mm:.2g} mm at most")
 
 
 def _load(path: Path, platform: Path | None) -> tuple[Loaded, Plan | None]:

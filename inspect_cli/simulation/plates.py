@@ -83,11 +83,8 @@ class Plates:
         self._tip_W = data.geom_xpos[model.geom("tip").id]
         self._pos, self._quat = data.mocap_pos, data.mocap_quat
         self._engaged = np.zeros(len(plated), np.bool_)
-
-    @property
-    def any(self) -> bool:
+        self.any = bool(plated)
         """Whether there is anything to place."""
-        return len(self._surfaces) > 0
 
     def reset(self) -> None:
         """Forget what was touched."""

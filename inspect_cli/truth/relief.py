@@ -19,12 +19,14 @@ node, so the largest one is at a node, up to what a margin covers.
 
 from __future__ import annotations
 
-from typing import Any
+from typing import Any, TypeAlias
 
 import numpy as np
 
 from inspect_cli.compiled import kernel
 from inspect_cli.spatial.arrays import Matrix, Points, Structured, Vector
+
+Four: TypeAlias = tuple[float, float, float, float]
 
 RELIEF: np.dtype[Any] = np.dtype(
     [
@@ -71,18 +73,27 @@ def _spline(
     column, row = int(x), int(y)
     s, t = x - column, y - row
     at = first + (row - 1) * columns + column - 1
-    h, h_x, h_y = 0.0, 0.0, 0.0
-    # Cubic B-spline weights of the four nodes around, and their derivatives.
-    a0, a1, a2, a3 = _weights(s)
-    b0, b1, b2, b3 = _slopes(s)
-    for w, g in zip(_weights(t), _slopes(t)):  # noqa: B905  (compiled without strict)
-        c0, c1, c2, c3 = nodes[0, at], nodes[0, at + 1], nodes[0, at + 2], nodes[0, at + 3]
-        line = a0 * c0 + a1 * c1 + a2 * c2 + a3 * c3
-        h += w * line
-        h_x += w * (b0 * c0 + b1 * c1 + b2 * c2 + b3 * c3)
-        h_y += g * line
-        at += columns
+    # Cubic B-spline weights of the four nodes around, and their derivatives; then line by line.
+    a, b = _weights(s), _slopes(s)
+    w, g = _weights(t), _slopes(t)
+    k_0, b_0 = _line(nodes, at, a, b)
+    k_1, b_1 = _line(nodes, at + columns, a, b)
+    k_2, b_2 = _line(nodes, at + 2 * columns, a, b)
+    k_3, b_3 = _line(nodes, at + 3 * columns, a, b)
+    h = w[0] * k_0 + w[1] * k_1 + w[2] * k_2 + w[3] * k_3
+    h_x = w[0] * b_0 + w[1] * b_1 + w[2] * b_2 + w[3] * b_3
+    h_y = g[0] * k_0 + g[1] * k_1 + g[2] * k_2 + g[3] * k_3
     return h, h_x, h_y
+
+
+@kernel
+def _line(nodes: Matrix, at: int, a: Four, b: Four) -> tuple[float, float]:
+    """Four coefficients from ``at`` on, weighted by ``a`` and by ``b``."""
+    c_0, c_1, c_2, c_3 = nodes[0, at], nodes[0, at + 1], nodes[0, at + 2], nodes[0, at + 3]
+    return (
+        a[0] * c_0 + a[1] * c_1 + a[2] * c_2 + a[3] * c_3,
+        b[0] * c_0 + b[1] * c_1 + b[2] * c_2 + b[3] * c_3,
+    )
 
 
 @kernel
@@ -94,7 +105,7 @@ def _within(x: float, count: int) -> float:
 
 
 @kernel
-def _weights(s: float) -> tuple[float, float, float, float]:
+def _weights(s: float) -> Four:
     r = 1.0 - s
     a, d = r * r * r / 6.0, s * s * s / 6.0
     b = 2.0 / 3.0 - 0.5 * s * s * (2.0 - s)
@@ -102,7 +113,7 @@ def _weights(s: float) -> tuple[float, float, float, float]:
 
 
 @kernel
-def _slopes(s: float) -> tuple[float, float, float, float]:
+def _slopes(s: float) -> Four:
     r = 1.0 - s
     a, d = -0.5 * r * r, 0.5 * s * s
     b = s * (1.5 * s - 2.0)
