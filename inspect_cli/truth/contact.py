@@ -7,17 +7,19 @@ import numpy as np
 from inspect_cli.compiled import kernel
 from inspect_cli.records import State, TrueContact
 from inspect_cli.spatial.arrays import Structured, Vector
+from inspect_cli.spatial.primitives import normal_at, patch_distance, project
 from inspect_cli.truth.geometry import StructureTruth
-from inspect_cli.truth.solids import Solids, count_of, distance_from, foot_on, normal_on
+from inspect_cli.truth.relief import relief_foot, relief_normal
+from inspect_cli.truth.solids import Solids
 
 
 @kernel
-def nearest_surface(solids: Solids, p_W: Vector, contact: Structured) -> int:
+def nearest_surface(prims: Structured, p_W: Vector, contact: Structured) -> int:
     """Write surface, distance, normal and (u, v) of the nearest patch; return its index or −1."""
     row = contact[0]
     nearest, index = np.inf, -1
-    for i in range(count_of(solids)):
-        distance = distance_from(solids, i, p_W)
+    for i in range(prims.shape[0]):
+        distance = patch_distance(prims, i, p_W)
         if abs(distance) < abs(nearest):
             nearest, index = distance, i
     row["surface"] = index
@@ -26,13 +28,33 @@ def nearest_surface(solids: Solids, p_W: Vector, contact: Structured) -> int:
         row["n_W"][:] = np.nan
         row["uv"][:] = np.nan
         return index
-    u, v, _, _ = foot_on(solids, index, p_W)
+    foot = project(prims, index, p_W)
     row["distance"] = nearest
-    normal = normal_on(solids, index, u, v)
-    row["uv"][0] = u
-    row["uv"][1] = v
+    normal = normal_at(prims, index, foot[0], foot[1])
+    for k in range(2):
+        row["uv"][k] = foot[k]
     for k in range(3):
         row["n_W"][k] = normal[k]
+    return index
+
+
+@kernel
+def nearer_relief(solids: Solids, p_W: Vector, contact: Structured, index: int) -> int:
+    """Write over the ``index``-th surface where a relief is nearer; return the nearest's index."""
+    row = contact[0]
+    nearest = abs(row["distance"]) if index >= 0 else np.inf
+    for i in range(solids.reliefs.shape[0]):
+        u, v, w, _ = relief_foot(solids.reliefs, solids.nodes, i, p_W)
+        if abs(w) >= nearest:
+            continue
+        nearest, index = abs(w), solids.primitives.shape[0] + i
+        row["surface"] = index
+        row["distance"] = w
+        normal = relief_normal(solids.reliefs, solids.nodes, i, u, v)
+        row["uv"][0] = u
+        row["uv"][1] = v
+        for k in range(3):
+            row["n_W"][k] = normal[k]
     return index
 
 
@@ -46,7 +68,10 @@ class ContactTruth:
     def update(self, state: State) -> TrueContact:
         """The truth at the tip now."""
         contact = self.contact
-        index = nearest_surface(self._structure.solids, state.views["p_WT"], contact.array)
+        solids, p_WT = self._structure.solids, state.views["p_WT"]
+        index = nearest_surface(solids.primitives, p_WT, contact.array)
+        if len(solids.reliefs):
+            index = nearer_relief(solids, p_WT, contact.array, index)
         contact.t_s = state.t_s
         specimen = self._structure.surfaces[index].specimen if index >= 0 else None
         if specimen is None:

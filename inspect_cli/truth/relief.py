@@ -243,7 +243,7 @@ def cast_on_reliefs(
 ) -> None:
     """Shorten ``ranges`` (n,) to the hits of rays from ``origin_W`` on reliefs, from both sides.
 
-    Nothing is looked for beyond ``max_range``.
+    A NaN is a ray that has met nothing so far; nothing is looked for beyond ``max_range``.
     """
     for i in range(reliefs.shape[0]):
         R = reliefs["R_WS"][i]
@@ -260,8 +260,10 @@ def cast_on_reliefs(
                     + R[1, m] * directions_W[k, 1]
                     + R[2, m] * directions_W[k, 2]
                 )
-            t = _ray_on_relief(reliefs, nodes, i, o, d, min(ranges[k], max_range))
-            ranges[k] = min(ranges[k], t)
+            known = max_range if np.isnan(ranges[k]) else ranges[k]
+            t = _ray_on_relief(reliefs, nodes, i, o, d, known)
+            if t <= known:
+                ranges[k] = t
 
 
 @kernel

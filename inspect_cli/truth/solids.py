@@ -1,6 +1,7 @@
 """Every true surface in a form for kernels: bounded primitives, then reliefs, in one count.
 
-Simulator and sensors ask through this page and do not care which of the two a surface is.
+Simulator and sensors ask through this page and do not care which of the two a surface is. Where
+there is no relief, none of its kernels is called: what is not flown is not compiled either.
 """
 
 from __future__ import annotations
@@ -14,7 +15,6 @@ from inspect_cli.compiled import kernel
 from inspect_cli.spatial.arrays import Matrix, Points, Structured, Vector
 from inspect_cli.spatial.primitives import (
     normal_at,
-    patch_distance,
     plane,
     point_at,
     project,
@@ -53,13 +53,6 @@ def joined_reliefs(parts: Sequence[tuple[Structured, Matrix]]) -> tuple[Structur
     return rows, np.concatenate([nodes for _, nodes in parts], axis=1)
 
 
-@kernel
-def count_of(solids: Solids) -> int:
-    """How many surfaces there are."""
-    return int(solids.primitives.shape[0] + solids.reliefs.shape[0])
-
-
-@kernel
 def cast(
     solids: Solids, origin_W: Vector, directions_W: Points, max_range: float, ranges: Vector
 ) -> None:
@@ -69,24 +62,8 @@ def cast(
     within ``max_range``.
     """
     raycast(solids.primitives, origin_W, directions_W, max_range, ranges)
-    if solids.reliefs.shape[0] == 0:
-        return
-    for k in range(ranges.size):
-        if np.isnan(ranges[k]):
-            ranges[k] = np.inf
-    cast_on_reliefs(solids.reliefs, solids.nodes, origin_W, directions_W, max_range, ranges)
-    for k in range(ranges.size):
-        if ranges[k] > max_range:
-            ranges[k] = np.nan
-
-
-@kernel
-def distance_from(solids: Solids, i: int, p_W: Vector) -> float:
-    """Distance, m, of a point from surface ``i``; negative behind it with the foot on it."""
-    n = solids.primitives.shape[0]
-    if i < n:
-        return float(patch_distance(solids.primitives, i, p_W))
-    return float(relief_foot(solids.reliefs, solids.nodes, i - n, p_W)[2])
+    if len(solids.reliefs):
+        cast_on_reliefs(solids.reliefs, solids.nodes, origin_W, directions_W, max_range, ranges)
 
 
 @kernel
