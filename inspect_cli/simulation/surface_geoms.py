@@ -15,7 +15,7 @@ import mujoco
 import numpy as np
 
 from inspect_cli.spatial.arrays import Matrix, Structured, Vector
-from inspect_cli.spatial.primitives import CYLINDER, PLANE
+from inspect_cli.spatial.primitives import CYLINDER, PLANE, normal_at, point_at
 from inspect_cli.spatial.rotations import matrix_to_quaternion
 from inspect_cli.truth.geometry import StructureTruth
 from inspect_cli.truth.relief import relief_covers
@@ -45,9 +45,8 @@ def add_surfaces(spec: mujoco.MjSpec, structure: StructureTruth) -> list[str]:
     met, plated = [], False
     for index, surface in enumerate(structure.surfaces):
         if index < len(prims) and prims["kind"][index] == PLANE:
-            half = prims["half_size"][index]
             name = f"{surface.name}:0:0"
-            _add_box(spec, name, structure.solids, index, (0.0, 0.0), half, TOUCHABLE)
+            _add_plane(spec, name, prims, index)
         elif index < len(prims) and prims["side"][index] > 0:
             name = surface.name
             _add_round(spec, name, prims[index : index + 1])
@@ -58,6 +57,13 @@ def add_surfaces(spec: mujoco.MjSpec, structure: StructureTruth) -> list[str]:
     if plated:
         _let_the_shell_meet_facets(spec)
     return met
+
+
+def _add_plane(spec: mujoco.MjSpec, name: str, prims: Structured, index: int) -> None:
+    front = point_at(prims, index, 0.0, 0.0)
+    ahead = point_at(prims, index, 1e-4, 0.0) - front
+    n = normal_at(prims, index, 0.0, 0.0)
+    _add_box(spec, name, front, n, ahead, prims["half_size"][index], TOUCHABLE)
 
 
 def _add_round(spec: mujoco.MjSpec, name: str, prims: Structured) -> None:
@@ -78,20 +84,23 @@ def _add_round(spec: mujoco.MjSpec, name: str, prims: Structured) -> None:
 
 def _add_facets(spec: mujoco.MjSpec, name: str, solids: Solids, index: int) -> None:
     """Boxes in the middles of equal shares of the patch; none where a relief has a hole."""
-    n = len(solids.primitives)
-    rows, local = (solids.primitives, index) if index < n else (solids.reliefs, index - n)
+    count = len(solids.primitives)
+    is_relief = index >= count
+    rows, local = (solids.reliefs, index - count) if is_relief else (solids.primitives, index)
     half = rows["half_size"][local]
     counts = _facet_counts(solids, index, half)
     size = half / counts
     for i in range(counts[0]):
         for j in range(counts[1]):
             uv = (-half[0] + (2 * i + 1) * size[0], -half[1] + (2 * j + 1) * size[1])
-            if index >= n and not relief_covers(solids.reliefs, solids.nodes, local, *uv):
+            if is_relief and not relief_covers(solids.reliefs, solids.nodes, local, *uv):
                 continue
             # (u, v) of a relief are not arc lengths; those of a sphere are where they are longest.
-            arcs = size * _stretch(solids, index, uv) if index >= n else size
+            arcs = size * _stretch(solids, index, uv) if is_relief else size
             box = OVERLAP * arcs
-            _add_box(spec, f"{name}:{i}:{j}", solids, index, uv, box, SHELL_ONLY)
+            front, n = point_on(solids, index, *uv), normal_on(solids, index, *uv)
+            ahead = point_on(solids, index, uv[0] + 1e-4, uv[1]) - front
+            _add_box(spec, f"{name}:{i}:{j}", front, n, ahead, box, SHELL_ONLY)
 
 
 def _facet_counts(solids: Solids, index: int, half: Vector) -> Vector:
@@ -121,16 +130,13 @@ def _stretch(solids: Solids, index: int, uv: tuple[float, float]) -> Vector:
 def _add_box(
     spec: mujoco.MjSpec,
     name: str,
-    solids: Solids,
-    index: int,
-    uv: tuple[float, float],
+    front: Vector,
+    n: Vector,
+    ahead: Vector,
     half: Vector,
     contype: int,
 ) -> None:
-    """A box whose front is tangent to a surface at (u, v), along u and across it."""
-    front = point_on(solids, index, *uv)
-    n = normal_on(solids, index, *uv)
-    ahead = point_on(solids, index, uv[0] + 1e-4, uv[1]) - front
+    """A box whose front has its middle in ``front``, the normal ``n`` and an edge along ``ahead``."""
     spec.worldbody.add_geom(
         name=name,
         type=mujoco.mjtGeom.mjGEOM_BOX,
