@@ -136,7 +136,7 @@ def _add_box(
     half: Vector,
     contype: int,
 ) -> None:
-    """A box whose front has its middle in ``front``, the normal ``n`` and an edge along ``ahead``."""
+    """A box: the middle of its front, its normal ``n`` and a direction ``ahead`` along an edge."""
     spec.worldbody.add_geom(
         name=name,
         type=mujoco.mjtGeom.mjGEOM_BOX,
