@@ -23,7 +23,8 @@ from inspect_cli.compiled import kernel
 from inspect_cli.schema.truth import ProximityEffects
 from inspect_cli.spatial.arrays import Indices, Matrix, Points, Structured
 from inspect_cli.spatial.primitives import patch_distance, raycast
-from inspect_cli.truth.relief import cast_on_reliefs, relief_foot
+from inspect_cli.truth.relief import relief_foot
+from inspect_cli.truth.relief_rays import cast_on_reliefs
 from inspect_cli.truth.solids import Solids, on_the_ground
 
 REACH_M = 2.0

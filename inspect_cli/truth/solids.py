@@ -22,11 +22,11 @@ from inspect_cli.spatial.primitives import (
 )
 from inspect_cli.truth.relief import (
     RELIEF,
-    cast_on_reliefs,
     relief_foot,
     relief_normal,
     relief_point,
 )
+from inspect_cli.truth.relief_rays import cast_on_reliefs
 
 
 class Solids(NamedTuple):
