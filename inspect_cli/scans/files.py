@@ -37,17 +37,6 @@ def refused(path: Path, what: str, hint: str) -> GeometryError:
     return GeometryError(Problem(what, Location(str(path)), hint))
 
 
-def confined(root: Path, file: str) -> Path:
-    """The path of a file in the campaign folder; InputError where it leads out of it."""
-    path = (root / file).resolve()
-    if not path.is_relative_to(root.resolve()):
-        raise InputError(
-            f"'{file}' lies outside of the campaign folder {root}",
-            hint="copy the file into the folder and name it relative to the folder",
-        )
-    return path
-
-
 def require_file(path: Path, suffixes: Collection[str], noun: str) -> str:
     """The file's suffix in lower case; GeometryError if it is not one that can be read."""
     suffix = path.suffix.lower()
