@@ -2,32 +2,18 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from dataclasses import dataclass
-
 from inspect_cli.metrics import contact, estimation, guidance, half_cell, operation, tracking
-from inspect_cli.metrics.flight import Flight
+from inspect_cli.metrics.catalogue_sliding import SLIDING_METRICS
+from inspect_cli.metrics.spec import MetricSpec
 from inspect_cli.records import (
     Command,
     Estimate,
     Reading,
-    Record,
     Reference,
     State,
     SurfaceEstimate,
     TrueContact,
 )
-
-
-@dataclass(frozen=True)
-class MetricSpec:
-    """A metric: ``function`` computes it from a flight that has the channels ``needs``."""
-
-    unit: str
-    function: Callable[[Flight], float]
-    meaning: str
-    needs: tuple[type[Record], ...]
-
 
 FOLLOWED = (State, Reference)
 ESTIMATED = (State, Reference, Estimate)
@@ -134,7 +120,7 @@ METRICS: dict[str, MetricSpec] = {
     "contact.force_cv": MetricSpec(
         "1",
         contact.force_cv,
-        "worst coefficient of variation of a dwell's true force after its first second",
+        "worst coefficient of variation of a contact's true force after its first second",
         FOLLOWED,
     ),
     "contact.bounce_gaps": MetricSpec(
@@ -213,4 +199,5 @@ METRICS: dict[str, MetricSpec] = {
     "actuators.thrust_max_n": MetricSpec(
         "N", operation.thrust_max, "largest true thrust of a single rotor", (State,)
     ),
+    **SLIDING_METRICS,
 }

@@ -25,7 +25,7 @@ SUFFIXES = {
     "Wh": ("_wh_planned",),
     "m/s": ("_mps",),
     "1": (
-        *("_cv", "_count", "_gaps", "_mask", "_mismatches", "_points", "_rel_max"),
+        *("_cv", "_count", "_gaps", ".gaps", "_mask", "_mismatches", "_points", "_rel_max"),
         *("_share", "_total", "_valid"),
     ),
 }
