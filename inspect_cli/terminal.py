@@ -20,6 +20,8 @@ from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, T
 from rich.table import Table
 from rich.text import Text
 
+from inspect_cli.reporting.published import published_of
+
 if TYPE_CHECKING:
     from inspect_cli.commands.doctor import Diagnosis
     from inspect_cli.commands.init import Campaign
@@ -292,10 +294,17 @@ def _checks_table(checks: Sequence[Check]) -> Table:
             f"{check.metric}\nover {check.over}" if check.over else check.metric,
             _number(check.value, ".4g") + unit,
             _bounds(check),
-            check.ref or "",
+            _answers(check),
             _styled(check.verdict),
         )
     return table
+
+
+def _answers(check: Check) -> str:
+    """The row of the ledger, and below it the published number where there is one."""
+    published = published_of(check.ref)
+    number = published.short if published else ""
+    return "\n".join(part for part in (check.ref or "", number) if part)
 
 
 def _bounds(check: Check) -> str:

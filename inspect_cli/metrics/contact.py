@@ -114,8 +114,12 @@ def position_error(flight: Flight, target: Target) -> float | None:
 
 
 def position_error_max(flight: Flight) -> float:
-    """The largest ``position_error`` of the points that were pressed, m."""
-    errors = [position_error(flight, target) for target in flight.contact_targets]
+    """The largest ``position_error`` of the points that were pressed, m.
+
+    Where a surface is found by the camera alone, no point of it was planned.
+    """
+    planned = (target for target in flight.contact_targets if target.surface is not None)
+    errors = [position_error(flight, target) for target in planned]
     pressed = [error for error in errors if error is not None]
     if not pressed:
         raise NotMeasured("no point was pressed")

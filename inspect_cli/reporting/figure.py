@@ -4,14 +4,14 @@ from __future__ import annotations
 
 import base64
 import html
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
 
-from inspect_cli.reporting.markup import Markup, data_script, element
+from inspect_cli.reporting.markup import Markup, data_script, element, joined
 
 Json = dict[str, Any]
 
@@ -46,6 +46,14 @@ class Figure:
         content = {"data": self.traces, "layout": self.layout, "timed": self.timed}
         data = data_script(content, data_plot=f"plot-{self.name}")
         return element("figure", plot, data, element("figcaption", self.caption), id=self.name)
+
+
+def drawn(figures: Iterable[Figure], *, side_by_side: bool = False) -> Markup:
+    """The figures one after the other, or in two columns where the page is wide enough."""
+    shown = joined(*(figure.html() for figure in figures))
+    if side_by_side and shown:
+        return element("div", shown, class_="pair")
+    return shown
 
 
 def numbers(values: ArrayLike) -> Json:

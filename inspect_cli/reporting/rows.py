@@ -16,6 +16,14 @@ def rows_of(log: RunLog, record: type[Record]) -> Structured | None:
     return None if rows is None or len(rows) == 0 else rows
 
 
+def rows_on(log: RunLog, topic: str, *fields: str) -> Structured | None:
+    """The rows of a channel that has no record of its own here, if it has all of ``fields``."""
+    rows = log.channels.get(topic)
+    if rows is None or len(rows) == 0 or not set(fields) <= set(rows.dtype.names or ()):
+        return None
+    return rows
+
+
 def held_at(rows: Structured, t_s: Vector) -> Structured:
     """The latest row at each time, as a sample-and-hold gives it; the first row before that."""
     index = np.searchsorted(rows["t_s"], t_s, side="right") - 1
@@ -49,6 +57,11 @@ def attitude_difference_mrad(q_from: Points, q_to: Points) -> Points:
     difference: Points = 1e3 * (first.inv() * second).as_rotvec()
     difference[~(first_good & second_good)] = np.nan
     return difference
+
+
+def turned_to_body(q_WB: Points, x_W: Points) -> Points:
+    """R_WBᵀ x_W for rows of quaternions and vectors; NaN where the attitude is none."""
+    return turned_to_world(q_WB * np.array([1.0, -1.0, -1.0, -1.0]), x_W)
 
 
 def turned_to_world(q_WB: Points, x_B: Points) -> Points:
