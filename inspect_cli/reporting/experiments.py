@@ -10,12 +10,11 @@ from inspect_cli.records import Record, Reference, State, TrueContact
 from inspect_cli.reporting.figure import drawn
 from inspect_cli.reporting.figures_drawing import course_figures, drawing_figures, drawings_of
 from inspect_cli.reporting.figures_ground_truth import (
-    SensedForce,
     force_figure,
     position_figure,
     rmse_table,
 )
-from inspect_cli.reporting.figures_pulls import PullRow, pull_figures, pull_phases, pull_table
+from inspect_cli.reporting.figures_pulls import pull_figures, pull_phases, pull_table
 from inspect_cli.reporting.figures_servoing import servoing_figures, slides_of
 from inspect_cli.reporting.markup import Markup, element, joined
 from inspect_cli.reporting.page import Section
@@ -37,25 +36,23 @@ def experiment_sections(
     plan: Plan,
     works: Works,
     timeline: Timeline,
-    pulls: Sequence[PullRow] = (),
-    sensed: SensedForce | None = None,
 ) -> Iterator[Section]:
     """Rope pulls, drawing, depth servoing, estimates against ground truth: those that were."""
     if works.pulls:
-        yield Section("pulls", "Rope pulls", _pulls(log, result, pulls))
+        yield Section("pulls", "Rope pulls", _pulls(log, result))
     if works.strokes:
         yield Section("drawing", "Drawing", _drawing(log, result, plan))
     if works.followings:
         yield Section("servoing", "Depth servoing", _servoing(log, result))
     if works.ground_truth:
-        content = _ground_truth(log, result, sensed, timeline)
+        content = _ground_truth(log, result, timeline)
         yield Section("ground-truth", "Estimates against ground truth", content)
 
 
-def _pulls(log: RunLog, result: Result, pulls: Sequence[PullRow]) -> Markup:
+def _pulls(log: RunLog, result: Result) -> Markup:
     return joined(
         drawn(pull_figures(log, pull_phases(log)), side_by_side=True),
-        pull_table(pulls),
+        pull_table(Flight(log)),
         metrics_table("Pulls at the cord; of several the least favourable.", result, ("pull",)),
     )
 
@@ -81,14 +78,12 @@ def _servoing(log: RunLog, result: Result) -> Markup:
     return joined(_or_reason(shown), metrics_table("Depth servoing.", result, ("slide",)))
 
 
-def _ground_truth(
-    log: RunLog, result: Result, sensed: SensedForce | None, timeline: Timeline
-) -> Markup:
+def _ground_truth(log: RunLog, result: Result, timeline: Timeline) -> Markup:
     figures = list(position_figure(log, timeline))
     return joined(
         drawn(figures[:1]),
         drawn(figures[1:], side_by_side=True),
-        drawn(force_figure(log, sensed, timeline)),
+        drawn(force_figure(Flight(log), timeline)),
         rmse_table(result),
         metrics_table("Force against the sensor in the wall.", result, ("force_sensor",)),
     )

@@ -6,12 +6,13 @@ After Fig. 12 and Table IV of Bodie et al., RSS 2019.
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
 
 import numpy as np
 
 from inspect_cli.log.reader import RunLog
-from inspect_cli.records import Estimate, Reference, State
+from inspect_cli.metrics.flight import Flight, NotMeasured
+from inspect_cli.metrics.force_sensor import signal
+from inspect_cli.records import Estimate, Odometry, Reference, State, WallForce
 from inspect_cli.reporting.figure import Figure
 from inspect_cli.reporting.markup import Markup
 from inspect_cli.reporting.palette import (
@@ -21,51 +22,24 @@ from inspect_cli.reporting.palette import (
     SENSOR_FILTERED,
     SENSOR_RAW,
     TRUTH,
-    LineStyle,
 )
 from inspect_cli.reporting.published import SOURCE, TABLE_IV
 from inspect_cli.reporting.rows import (
     attitude_difference_mrad,
     held_at,
-    rotations,
     rows_of,
-    rows_on,
     turned_to_world,
 )
 from inspect_cli.reporting.table import NOTHING, Column, significant, table
 from inspect_cli.reporting.timeline import Line, Panel, Timeline, alike, stacked
 from inspect_cli.schema.result import Result
-from inspect_cli.spatial.arrays import Points, Vector
 
-WALL_TOPIC = "/sensor/wall_force"
-ODOMETRY_TOPIC = "/sensor/odometry"
 PANEL_PX = 84
-
-
-@dataclass(frozen=True)
-class SensedForce:
-    """The force on the vehicle by the sensor in the wall, in W; times (n,), forces (n, 3)."""
-
-    t_s: Vector
-    raw_W: Points
-    filtered_W: Points | None = None
 
 
 def has_ground_truth(log: RunLog) -> bool:
     """Whether the flight has something to hold its estimates against besides the usual."""
-    return any(rows_on(log, topic, "t_s") is not None for topic in (WALL_TOPIC, ODOMETRY_TOPIC))
-
-
-def sensed_force(log: RunLog) -> SensedForce | None:
-    """The samples of the wall's sensor, unfiltered, as the force on the vehicle: −R_WS f_S."""
-    blocks = rows_on(log, WALL_TOPIC, "t_s", "period", "q_WS", "f_S")
-    if blocks is None:
-        return None
-    count = blocks["f_S"].shape[1]
-    ages = blocks["period"][:, None] * np.arange(count - 1, -1, -1)
-    turn, _ = rotations(blocks["q_WS"][:1])
-    force_W = -turn[0].apply(blocks["f_S"].reshape(-1, 3))
-    return SensedForce((blocks["t_s"][:, None] - ages).ravel(), force_W)
+    return any(rows_of(log, record) is not None for record in (WallForce, Odometry))
 
 
 def position_figure(log: RunLog, timeline: Timeline) -> Iterator[Figure]:
@@ -108,14 +82,15 @@ def position_figure(log: RunLog, timeline: Timeline) -> Iterator[Figure]:
         )
 
 
-def force_figure(log: RunLog, sensed: SensedForce | None, timeline: Timeline) -> Iterator[Figure]:
+def force_figure(flight: Flight, timeline: Timeline) -> Iterator[Figure]:
     """Estimated force against the sensor's, raw and filtered, along the axes of the world."""
-    if sensed is None:
+    try:
+        sensed = signal(flight)
+    except NotMeasured:
         return
-    estimate = rows_of(log, Estimate)
-    tracks: list[tuple[Vector, Points, LineStyle]] = []
-    if sensed.filtered_W is not None:
-        tracks.append((sensed.t_s, sensed.filtered_W, SENSOR_FILTERED))
+    raw_W, filtered_W = (-force[:, :3] @ sensed.R_WS.T for force in (sensed.raw, sensed.filtered))
+    tracks = [(sensed.t_s, filtered_W, SENSOR_FILTERED)]
+    estimate = rows_of(flight.log, Estimate)
     if estimate is not None:
         force_W = turned_to_world(estimate["q_WB"], estimate["wrench_B"][:, :3])
         tracks.append((estimate["t_s"], force_W, ESTIMATE))
@@ -125,15 +100,15 @@ def force_figure(log: RunLog, sensed: SensedForce | None, timeline: Timeline) ->
         for k, axis in enumerate("xyz")
     ]
     panels = [
-        Panel(p.title, [Line(sensed.t_s, sensed.raw_W[:, k], SENSOR_RAW), *p.lines], p.axis, 110)
+        Panel(p.title, [Line(sensed.t_s, raw_W[:, k], SENSOR_RAW), *p.lines], p.axis, 110)
         for k, p in enumerate(alike(smooth, window))
     ]
-    filtered = " and filtered" if sensed.filtered_W is not None else ""
     yield stacked(
         "ground-truth-force",
-        f"Force on the vehicle in the world: by the momentum observer, and by the sensor in the "
-        f"wall, raw{filtered}. The observer holds all other external force too. The scale is that "
-        "of the smooth lines; the raw signal goes beyond it.",
+        "Force on the vehicle in the world: by the momentum observer, and by the sensor in the "
+        "wall, raw and filtered (Butterworth of order 5, 5 Hz, without a lag). The observer holds "
+        "all other external force too. The scale is that of the smooth lines; the raw signal goes "
+        "beyond it.",
         "Estimated and measured force on three axes over time.",
         panels,
         timeline,

@@ -7,12 +7,13 @@ the rope-pull profiles of impedance are given.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 
 import numpy as np
 
 from inspect_cli.log.reader import RunLog
-from inspect_cli.records import Estimate, Reference, State
+from inspect_cli.metrics.flight import Flight, NotMeasured
+from inspect_cli.metrics.pull import Pull, pulls
+from inspect_cli.records import Estimate, Reference, State, TrueDisturbance
 from inspect_cli.reporting.figure import Figure
 from inspect_cli.reporting.markup import Markup
 from inspect_cli.reporting.palette import (
@@ -26,7 +27,6 @@ from inspect_cli.reporting.rows import (
     attitude_difference_mrad,
     held_at,
     rows_of,
-    rows_on,
     turned_to_body,
 )
 from inspect_cli.reporting.table import Column, number, table
@@ -41,31 +41,15 @@ from inspect_cli.reporting.timeline import (
 )
 from inspect_cli.spatial.arrays import Points, Structured, Vector
 
-TOPIC = "/truth/disturbance"
 BEFORE_S = 2.0
 AFTER_S = 5.0
 """Drawn before the first and after the last pull."""
 PANEL_PX = 84
 
 
-@dataclass(frozen=True)
-class PullRow:
-    """What one pull did, as the table shows it."""
-
-    number: int
-    peak_n: float
-    angle_to_x_B_deg: float
-    along_m: float
-    across_m: float
-    z_m: float
-    attitude_motion_m: float
-    yaw_rad: float
-    torque_nm: float
-
-
 def pull_phases(log: RunLog) -> tuple[Phase, ...]:
     """The times of the pulls with their numbers; none in a log without a cord."""
-    felt = rows_on(log, TOPIC, "t_s", "f_rope_W", "pull")
+    felt = rows_of(log, TrueDisturbance)
     if felt is None:
         return ()
     t_s, pull = felt["t_s"], felt["pull"]
@@ -154,7 +138,7 @@ def _wrench(log: RunLog, component: int) -> list[Line]:
 
 def _cord_wrench(log: RunLog) -> tuple[Vector, Points] | None:
     """(times, force and torque (n, 6) of the cord about O_b in B)."""
-    felt, state = rows_on(log, TOPIC, "t_s", "f_rope_W", "pull"), rows_of(log, State)
+    felt, state = rows_of(log, TrueDisturbance), rows_of(log, State)
     if felt is None or state is None:
         return None
     true = held_at(state, felt["t_s"])
@@ -164,9 +148,11 @@ def _cord_wrench(log: RunLog) -> tuple[Vector, Points] | None:
     return felt["t_s"], np.hstack(turned)
 
 
-def pull_table(pulls: Sequence[PullRow]) -> Markup:
-    """One row for each pull; nothing without one."""
-    if not pulls:
+def pull_table(flight: Flight) -> Markup:
+    """One row for each pull; nothing where they cannot be told."""
+    try:
+        rows = [_row(k + 1, pull) for k, pull in enumerate(pulls(flight))]
+    except NotMeasured:
         return Markup("")
     columns = [
         Column("Pull"),
@@ -186,22 +172,21 @@ def pull_table(pulls: Sequence[PullRow]) -> Markup:
         "beginning of the pull to three seconds after it. By attitude: how far the tip moved "
         "because the body turned.",
         columns,
-        [_row(pull) for pull in pulls],
+        rows,
         wide=True,
     )
 
 
-def _row(pull: PullRow) -> list[str]:
-    compliance = 1e3 * pull.along_m / pull.peak_n if pull.peak_n > 0.0 else None
+def _row(place: int, pull: Pull) -> list[str]:
     return [
-        str(pull.number),
-        number(pull.peak_n, 1),
-        number(pull.angle_to_x_B_deg, 1),
-        number(1e3 * pull.along_m, 1),
-        number(1e3 * pull.across_m, 1),
-        number(1e3 * pull.z_m, 1),
-        number(1e3 * pull.attitude_motion_m, 1),
-        number(compliance, 1),
-        number(pull.yaw_rad, 3),
-        number(pull.torque_nm, 2),
+        str(place),
+        number(pull.peak, 1),
+        number(float(np.degrees(pull.angle_to_x_B)), 1),
+        number(1e3 * pull.along, 1),
+        number(1e3 * pull.across, 1),
+        number(1e3 * pull.upwards, 1),
+        number(1e3 * pull.attitude_motion, 1),
+        number(1e3 * pull.along / pull.peak, 1),
+        number(pull.yaw, 3),
+        number(pull.torque, 2),
     ]

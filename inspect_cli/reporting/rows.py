@@ -16,14 +16,6 @@ def rows_of(log: RunLog, record: type[Record]) -> Structured | None:
     return None if rows is None or len(rows) == 0 else rows
 
 
-def rows_on(log: RunLog, topic: str, *fields: str) -> Structured | None:
-    """The rows of a channel that has no record of its own here, if it has all of ``fields``."""
-    rows = log.channels.get(topic)
-    if rows is None or len(rows) == 0 or not set(fields) <= set(rows.dtype.names or ()):
-        return None
-    return rows
-
-
 def held_at(rows: Structured, t_s: Vector) -> Structured:
     """The latest row at each time, as a sample-and-hold gives it; the first row before that."""
     index = np.searchsorted(rows["t_s"], t_s, side="right") - 1
