@@ -35,12 +35,12 @@ SLIDING_METRICS: dict[str, MetricSpec] = {
         SLID,
     ),
     "slide.chord_m": MetricSpec(
-        "m", slide.chord, "straight distance between the two ends of that way", SLID
+        "m", slide.chord, "straight distance of the true tip while the reference moves along", SLID
     ),
     "slide.speed_mean_mps": MetricSpec(
         "m/s",
         slide.speed_mean,
-        "that way over the time for which the reference moves along the surface",
+        "mean speed of the true tip along the surface while the reference moves along it",
         SLID,
     ),
     "slide.axis_error_mean_deg": MetricSpec(
@@ -52,7 +52,7 @@ SLIDING_METRICS: dict[str, MetricSpec] = {
     "slide.axis_error_moving_deg": MetricSpec(
         "°",
         slide.axis_error_moving_deg,
-        "the same while the reference moves along the surface",
+        "mean angle between the tool's axis and the true inward normal while the reference moves",
         SLID,
     ),
     "slide.rotation_xz_max_rad": MetricSpec(

@@ -21,6 +21,7 @@ VERDICT_WORDS = {
 def checks_table(checks: Sequence[Check]) -> Markup:
     """Every acceptance entry with its bounds, the published row it answers, and our value."""
     published = any(published_of(check.ref) for check in checks)
+    remarked = any(_remark(check) for check in checks)
     columns = [
         Column("Check", prose=True),
         Column("Reference"),
@@ -29,19 +30,18 @@ def checks_table(checks: Sequence[Check]) -> Markup:
         Column("Measured", numeric=True),
         Column("Unit"),
         Column("Verdict"),
-        Column("Remark", prose=True),
+        *([Column("Remark", prose=True)] if remarked else []),
     ]
     source = f" Published: {SOURCE}." if published else ""
     return table(
         "Acceptance checks: what the mission requires, the row of the ledger of published results "
         f"that a check answers for, and what this flight measured.{source}",
         columns,
-        [_check_row(check, published=published) for check in checks],
+        [_check_row(check, published=published, remarked=remarked) for check in checks],
     )
 
 
-def _check_row(check: Check, *, published: bool) -> list[str]:
-    over = f"relative to {check.over}" if check.over else ""
+def _check_row(check: Check, *, published: bool, remarked: bool) -> list[str]:
     known = published_of(check.ref)
     return [
         joined(meaning(check.metric), Markup(" "), element("code", check.metric)),
@@ -51,8 +51,13 @@ def _check_row(check: Check, *, published: bool) -> list[str]:
         significant(check.value),
         unit_shown(check.unit),
         chip(VERDICT_WORDS[check.verdict], check.verdict),
-        "; ".join(part for part in (over, check.reason) if part),
+        *([_remark(check)] if remarked else []),
     ]
+
+
+def _remark(check: Check) -> str:
+    over = f"relative to {check.over}" if check.over else ""
+    return "; ".join(part for part in (over, check.reason) if part)
 
 
 def bounds(low: float | None, high: float | None) -> str:

@@ -144,6 +144,7 @@ def _in_the_plane(flight: Flight, drawing: int, trials: Sequence[Trial]) -> Figu
         traces,
         layout,
         FRAME_PX + int(np.clip(WIDTH_PX * height / width, 220.0, 560.0)),
+        slope=float(height / width),
     )
 
 

@@ -125,7 +125,14 @@ def _from_the_side(flight: Flight, number: int, slide: Slide) -> Figure:
         traces,
         layout,
         460,
+        slope=_slope(view, [state["p_WT"][rows], flight.reference["p_WT"][rows]]),
     )
+
+
+def _slope(view: SideView, tracks: Sequence[Points]) -> float:
+    """Height over width of what is seen of the tracks."""
+    width, height = np.ptp(np.vstack([view.of(p_W) for p_W in tracks]), axis=0)
+    return float(height / max(width, 1e-6))
 
 
 def _believed_tip(flight: Flight) -> Points:
@@ -196,7 +203,10 @@ def _over_time(flight: Flight, number: int, slide: Slide) -> Figure:
     moving, contact = t_s[slide.moving], t_s[slide.contact]
     timeline = Timeline(
         phases=(Phase(float(contact[0]), float(contact[-1]), ""),),
-        marks=(Mark(float(moving[0]), "moves"), Mark(float(moving[-1]), "stops")),
+        marks=(
+            Mark(float(moving[0]), "moves", "right"),
+            Mark(float(moving[-1]), "stops", "left"),
+        ),
     ).within((float(busy[0]) - AROUND_S, float(busy[-1]) + AROUND_S))
     panels = [
         *_rotations(flight, slide),
@@ -212,9 +222,10 @@ def _over_time(flight: Flight, number: int, slide: Slide) -> Figure:
     return stacked(
         f"slide-{number}-time",
         "Attitude of the tool as rotations about its own axes since the slide began: set-point by "
-        "the seen normal, and truth. Below: distance from the tip to the surface, by the depth "
-        "camera along the tool and in truth along the normal, and the true normal force. Shaded: "
-        "contact. Between the marks the set-point moves along the surface.",
+        "the seen normal, and truth; the set-point is in the world as it was estimated, so that an "
+        "error of the estimate stands between the two. Below: distance from the tip to the "
+        "surface, by the depth camera along the tool and in truth along the normal, and the true "
+        "normal force. Shaded: contact. Between the marks the set-point moves along the surface.",
         "Rotation about the tool's three axes, distance and normal force over time.",
         panels,
         timeline,

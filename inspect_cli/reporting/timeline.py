@@ -40,10 +40,11 @@ class Phase:
 
 @dataclass(frozen=True)
 class Mark:
-    """A moment with a word for it."""
+    """A moment with a word for it, and which end of the word stands there."""
 
     t_s: float
     label: str
+    anchor: str = "center"
 
 
 @dataclass(frozen=True)
@@ -269,7 +270,7 @@ def _rule(mark: Mark) -> Json:
 
 
 def _mark_label(mark: Mark) -> Json:
-    return _label(mark.label, mark.t_s)
+    return _label(mark.label, mark.t_s) | {"xanchor": mark.anchor}
 
 
 def _label(text: str, t_s: float) -> Json:

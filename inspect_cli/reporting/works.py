@@ -150,12 +150,12 @@ def _contact(result: Result, metric: str) -> Iterator[str]:
 
 
 def _held(works: Works, result: Result) -> Iterator[str]:
+    if works.pulls:
+        yield from _pulled(works, result)
     if works.poses:
         longest = sum(target.dwell_s for target in works.poses)
         yield f"{_count(len(works.poses), 'pose')} held in free flight for {longest:g} s."
-    if works.pulls:
-        yield from _pulled(works, result)
-    elif works.poses:
+    if works.poses and not works.pulls:
         error = _millimetres(result, "tracking.tool_error_p95_m")
         if error:
             yield f"out of contact the tip was within {error} of its reference 95 % of the time."
@@ -165,7 +165,7 @@ def _pulled(works: Works, result: Result) -> Iterator[str]:
     force = _value(result, "pull.force_peak_n")
     moved = _millimetres(result, "pull.displacement_max_m")
     yaw = _value(result, "pull.yaw_max_rad")
-    strength = f" with up to {significant(force, 3)} N" if force is not None else ""
+    strength = f" with up to {significant(force, 2)} N" if force is not None else ""
     effect = f" moved the body by up to {moved}" if moved else ""
     turn = f" and turned it by up to {significant(yaw, 2)} rad" if yaw is not None and moved else ""
     yield f"{_count(works.pulls, 'pull')} at a cord{strength}{effect}{turn}."
@@ -238,7 +238,9 @@ def _times(n: int) -> str:
 def _millimetres(result: Result, metric: str) -> str:
     """The metric in words, empty where it was not measured."""
     value = _value(result, metric)
-    return "" if value is None else f"{significant(1e3 * value, 2)} mm"
+    if value is None:
+        return ""
+    return f"{number(1e3 * value, 1 if 1e3 * value < 9.95 else 0)} mm"
 
 
 def _value(result: Result, name: str) -> float | None:
