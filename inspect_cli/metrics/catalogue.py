@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from inspect_cli.metrics import contact, estimation, guidance, half_cell, operation, pull, tracking
 from inspect_cli.metrics.catalogue_estimation import ESTIMATION_METRICS
+from inspect_cli.metrics.catalogue_sliding import SLIDING_METRICS
 from inspect_cli.metrics.spec import MetricSpec
 from inspect_cli.records import (
     Command,
@@ -122,7 +123,7 @@ METRICS: dict[str, MetricSpec] = {
     "contact.force_cv": MetricSpec(
         "1",
         contact.force_cv,
-        "worst coefficient of variation of a dwell's true force after its first second",
+        "worst coefficient of variation of a contact's true force after its first second",
         FOLLOWED,
     ),
     "contact.bounce_gaps": MetricSpec(
@@ -263,4 +264,5 @@ METRICS: dict[str, MetricSpec] = {
         "N", operation.thrust_max, "largest true thrust of a single rotor", (State,)
     ),
     **ESTIMATION_METRICS,
+    **SLIDING_METRICS,
 }
