@@ -6,6 +6,8 @@ A kind that touches a surface of the structure names it by ``on``.
 
 from __future__ import annotations
 
+import math
+from itertools import pairwise
 from typing import Annotated, Literal
 
 from pydantic import Field, model_validator
@@ -13,6 +15,8 @@ from pydantic import Field, model_validator
 from inspect_cli.schema.base import Name, NonNegative, Positive, Strict, Triple
 
 MAX_POINTS = 10_000
+SHORTEST_M = 1e-4
+"""Lines that are shorter are marks of the pen, not lines."""
 
 Instrument = Literal["half_cell"]
 
@@ -106,6 +110,13 @@ class Trace(Pressing):
             raise ValueError("give exactly one of polyline_m, svg")
         if (self.svg is None) != (self.width_m is None):
             raise ValueError("width_m belongs to an svg, and an svg needs it")
+        return self
+
+    @model_validator(mode="after")
+    def _leads_somewhere(self) -> Trace:
+        corners = self.polyline_m or ()
+        if corners and all(math.dist(a, b) <= SHORTEST_M for a, b in pairwise(corners)):
+            raise ValueError(f"no edge of polyline_m is longer than {SHORTEST_M:g} m")
         return self
 
 
