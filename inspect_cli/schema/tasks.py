@@ -20,6 +20,10 @@ SHORTEST_M = 1e-4
 
 Instrument = Literal["half_cell"]
 
+Coordinate = Annotated[float, Field(ge=-1000.0, le=1000.0)]
+Place = tuple[Coordinate, Coordinate, Coordinate]
+"""Somewhere to fly to: farther off than any battery lasts is a slip of the unit."""
+
 
 class Pressing(Strict):
     """How the tool is brought to a surface and pressed on it."""
@@ -74,7 +78,7 @@ class ContactPoints(ContactOptions):
 class Hold(Strict):
     """A pose in free air, held for a time."""
 
-    position_m: Triple
+    position_m: Place
     """Of O_b in W."""
     heading_deg: float = 0.0
     duration_s: Annotated[float, Field(gt=0, le=3600)]
@@ -123,7 +127,7 @@ class Trace(Pressing):
 class ServoStart(Strict):
     """Where the vehicle is brought by hand: level, the tool about towards the surface."""
 
-    position_m: Triple
+    position_m: Place
     """Of O_b in W, as the vehicle believes to be there."""
     heading_deg: float = 0.0
 
