@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass
 
-from inspect_cli.metrics import contact, estimation, guidance, half_cell, operation, tracking
+from inspect_cli.metrics import contact, energy, estimation, guidance, half_cell, operation, tracking
 from inspect_cli.metrics.flight import Flight
 from inspect_cli.records import (
     Command,
@@ -200,6 +200,18 @@ METRICS: dict[str, MetricSpec] = {
     "flight.duration_s": MetricSpec("s", operation.duration, "time off the ground", FOLLOWED),
     "flight.energy_wh_planned": MetricSpec(
         "Wh", operation.energy_planned, "energy of the flight by the plan", ()
+    ),
+    "flight.energy_wh_flown": MetricSpec(
+        "Wh",
+        energy.energy_flown,
+        "electrical energy from take-off to landing, from the true speeds of the rotors",
+        FOLLOWED,
+    ),
+    "flight.energy_planned_over_flown": MetricSpec(
+        "1",
+        energy.planned_over_flown,
+        "energy of the flight by the plan over the energy that the rotors took",
+        FOLLOWED,
     ),
     "flight.saturated_share": MetricSpec(
         "1",

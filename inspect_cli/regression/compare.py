@@ -51,6 +51,7 @@ BY_METRIC: dict[str, Tolerance] = {
     # Without a unit, and yet not counts.
     "contact.force_cv": Tolerance(0.005, 0.10),
     "half_cell.resistance_error_rel_max": Tolerance(0.002, 0.10),
+    "flight.energy_planned_over_flown": Tolerance(0.0, 0.01),
     "flight.saturated_share": Tolerance(0.002, 0.10),
 }
 """Exceptions from ``BY_UNIT``."""

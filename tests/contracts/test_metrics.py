@@ -22,11 +22,11 @@ SUFFIXES = {
     "N·m": ("_nm",),
     "V": ("_v",),
     "s": ("_s",),
-    "Wh": ("_wh_planned",),
+    "Wh": ("_wh_planned", "_wh_flown"),
     "m/s": ("_mps",),
     "1": (
         *("_cv", "_count", "_gaps", "_mask", "_mismatches", "_points", "_rel_max"),
-        *("_share", "_total", "_valid"),
+        *("_over_flown", "_share", "_total", "_valid"),
     ),
 }
 """How the names of metrics end, by their unit."""
