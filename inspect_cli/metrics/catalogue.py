@@ -5,7 +5,15 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass
 
-from inspect_cli.metrics import contact, energy, estimation, guidance, half_cell, operation, tracking
+from inspect_cli.metrics import (
+    contact,
+    energy,
+    estimation,
+    guidance,
+    half_cell,
+    operation,
+    tracking,
+)
 from inspect_cli.metrics.flight import Flight
 from inspect_cli.records import (
     Command,
