@@ -77,7 +77,8 @@ def _line(half_m: float, pitch_m: float, edge_m: float, offset_m: float) -> Vect
     middle_m = offset_m + (0.0 if count % 2 else 0.5 * pitch_m)
     first = int(np.ceil((-room_m - middle_m - ROUNDING_M) / pitch_m))
     last = int(np.floor((room_m - middle_m + ROUNDING_M) / pitch_m))
-    return middle_m + pitch_m * np.arange(first, last + 1)
+    places: Vector = middle_m + pitch_m * np.arange(first, last + 1, dtype=np.float64)
+    return places
 
 
 def _parallel(prim: Structured, v: float, pitch_m: float, edge_m: float, offset_m: Place) -> Vector:
@@ -101,4 +102,5 @@ def _ring(ring_m: float, pitch_m: float, offset_m: float) -> Vector:
     while count > 1 and 2.0 * ring_m * np.sin(np.pi / count) < LEAST_CHORD * pitch_m:
         count -= 1
     step_m = around_m / count
-    return (np.arange(count) - 0.5 * (count - 1)) * step_m + offset_m
+    places: Vector = (np.arange(count, dtype=np.float64) - 0.5 * (count - 1)) * step_m + offset_m
+    return places
