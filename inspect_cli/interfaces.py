@@ -92,7 +92,12 @@ class Capabilities(Protocol):
         """Actuator margins at rest with the contact wrench (6,) acting on the tool's tip in W."""
         ...
 
-    def press_force(self, press_m: float) -> float:
+    @property
+    def impedances(self) -> tuple[str, ...]:
+        """The names of the impedance profiles, in the order that ``Reference.impedance`` counts."""
+        ...
+
+    def press_force(self, press_m: float, impedance: str) -> float:
         """Steady normal contact force, N, with the set-point ``press_m`` behind the surface."""
         ...
 

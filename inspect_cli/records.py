@@ -202,12 +202,16 @@ class Mode(IntEnum):
     IDLE = 0
     TAKEOFF = 1
     TRANSIT = 2
-    APPROACH = 3
-    PRESS = 4
-    RETREAT = 5
-    LAND = 6
-    LANDED = 7
-    HOVER = 8
+    HOLD = 3
+    """Hold a pose in free air for a time."""
+    APPROACH = 4
+    PRESS = 5
+    SLIDE = 6
+    """Move along the surface in contact."""
+    RETREAT = 7
+    LAND = 8
+    LANDED = 9
+    HOVER = 10
     """Safe hover after an abort."""
 
 
@@ -283,6 +287,7 @@ class Reference(Record):
     arm_angle = vector("n_arm", "rad", "", "angles of the arm's joints")
     mode = scalar("1", "mode of the mission executive, by number")
     target = scalar("1", "index of the target in the plan, −1 for none")
+    impedance = scalar("1", "which of the platform's impedance profiles to fly with, by its place")
 
 
 class Command(Record):

@@ -96,15 +96,17 @@ def print_plan(plan: Plan, file: Path) -> None:
         fit = surface.fit
         quality = f"{fit.inlier_share:.0%} within, rms {1000 * fit.rms_m:.1f} mm" if fit else ""
         surfaces.add_row(surface.name, surface.shape.kind, surface.source, quality)
-    out.print(surfaces)
+    if plan.surfaces:
+        out.print(surfaces)
     points = _table(
-        f"{plan.mission}: points",
-        *("point", "surface", "x, y, z /m", "press\n/m", "force\n/N"),
+        f"{plan.mission}: targets",
+        *("target", "kind", "surface", "x, y, z /m", "press\n/m", "force\n/N"),
         *("thrust\nmargin /N", "clearance\n/m"),
     )
     for target in plan.targets:
         points.add_row(
             target.label,
+            target.kind,
             target.surface or "",
             ", ".join(f"{x:.3f}" for x in target.p_WC),
             f"{target.press_m:.2f}",
@@ -226,10 +228,8 @@ def _print_result(result: Result) -> None:
         out.print(Text.assemble((f"{', '.join(metrics)}: ", UNSURE), reason), soft_wrap=True)
     valid = sum(point.valid for point in result.points)
     passed = sum(check.verdict == "pass" for check in result.checks)
-    out.print(
-        f"{valid} of {len(result.points)} readings valid, "
-        f"{passed} of {len(result.checks)} checks passed"
-    )
+    readings = f"{valid} of {len(result.points)} readings valid, " if result.points else ""
+    out.print(f"{readings}{passed} of {len(result.checks)} checks passed")
     _print_warnings(_warnings(result))
 
 

@@ -4,6 +4,7 @@ It decides where the vehicle shall go next and when a point is done; how to get 
 Guidance's, how to hold it is the controller's, which never learns of modes.
 
     IDLE ─▶ TAKEOFF ─▶ TRANSIT ─▶ APPROACH ─▶ PRESS ─▶ RETREAT ─▶ TRANSIT … ─▶ LAND ─▶ LANDED
+                          ╰─▶ HOLD ─▶ …           ╰─▶ SLIDE ─▶╯
     any of them while flying, by the failsafe table ─▶ HOVER, and the run ends aborted
 """
 
@@ -26,7 +27,7 @@ from inspect_cli.records import (
     Reading,
     SurfaceEstimate,
 )
-from inspect_cli.schema.plan import Leg, Plan, PostureModel, Target
+from inspect_cli.schema.plan import Leg, LegKind, Plan, PostureModel, Target
 from inspect_cli.schema.result import Status
 from inspect_cli.spatial.arrays import Vector
 
@@ -44,6 +45,21 @@ TOUCHDOWN_M = 0.15
 """How far below standing height the vehicle leans on the ground before its motors stop."""
 BEFORE_CONTACT_M = 0.01
 """The approach ends this far from the surface; the press goes through it."""
+
+MODES: dict[LegKind, Mode] = {
+    "takeoff": Mode.TAKEOFF,
+    "transit": Mode.TRANSIT,
+    "hold": Mode.HOLD,
+    "approach": Mode.APPROACH,
+    "press": Mode.PRESS,
+    "slide": Mode.SLIDE,
+    "retreat": Mode.RETREAT,
+    "land": Mode.LAND,
+}
+TOUCHING = frozenset({Mode.PRESS, Mode.SLIDE, Mode.RETREAT})
+"""Modes in which the reference may lie behind the surface."""
+NEAR = frozenset({Mode.APPROACH, *TOUCHING})
+"""Modes from which a retreat leads along the surface's normal."""
 
 
 @dataclass(frozen=True)
@@ -70,7 +86,8 @@ class Executive:
         self._guidance = guidance
         self._new_judge = judge
         self._judge: Judge | None = None
-        self._dwelling = False
+        self._dwelling_since_s: float | None = None
+        self._seen: SurfaceEstimate | None = None
         self._watch = Watch()
         self._inputs = FlightInputs(0.0, estimate, guidance.reference)
         self._time_limit_s = time_limit_s
@@ -98,7 +115,10 @@ class Executive:
     @property
     def watches_surface(self) -> bool:
         """Whether surface estimates steer the vehicle now."""
-        # A retreat keeps to the surface that it leaves: what it sees of it only gets noisier.
+        # A retreat keeps to the surface that it leaves: what it sees of it only gets noisier. A
+        # stroke is drawn on the surface that was seen before it.
+        if self.mode == Mode.SLIDE:
+            return self._plan.targets[self.target].following is not None
         return self.mode in (Mode.APPROACH, Mode.PRESS) and not self._waiting_for_surface
 
     def heard_pose(self, t_s: float) -> None:
@@ -109,17 +129,19 @@ class Executive:
         """The depth camera produced an estimate; only a valid one counts."""
         if not surface.valid:
             return
+        self._seen = surface
         inputs = self._inputs
         inputs.surface_seen_s, inputs.surface_distance_m = surface.t_s, surface.distance
         inputs.surface_n_W[:] = surface.n_W
         if self.target < 0:
             return
-        if not self._guidance.contradicts(self._plan.targets[self.target], surface):
+        target = self._plan.targets[self.target]
+        if not self._guidance.contradicts(surface.t_s, target, surface):
             inputs.surface_agreed_s = surface.t_s
 
     def probe_sampled(self, probe: Probe, p_WT: Vector) -> None:
         """The probe produced a sample; it counts once the set-point is where it shall be."""
-        if self._judge is not None and self._dwelling:
+        if self._judge is not None and self._dwelling_since_s is not None:
             self._judge.feed(probe, p_WT)
 
     def update(self, t_s: float) -> None:
@@ -155,18 +177,31 @@ class Executive:
             return self._settled_down(t_s)
         if self.mode == Mode.PRESS:
             return self._dwelt(t_s)
+        if self.mode == Mode.HOLD:
+            return t_s - self._since_s >= self._plan.targets[self.target].dwell_s
+        if self.mode == Mode.SLIDE:
+            return self._rested(t_s, self._settling_s())
         if self._waiting_for_surface:
             self._begin_approach_when_seen(t_s)
             return False
         return self._rested(t_s)
 
     def _dwelt(self, t_s: float) -> bool:
-        """Press to the set-point, then dwell until the judge has decided."""
-        assert self._judge is not None  # a press always has one
-        if not self._dwelling and self._guidance.arrived(t_s):
-            self._dwelling = True
-            self._judge.begin(self.target, t_s)
-        return self._dwelling and self._judge.done(t_s)
+        """Press to the set-point, then dwell: until the judge has decided, if there is one."""
+        if self._dwelling_since_s is None and self._guidance.arrived(t_s):
+            self._dwelling_since_s = t_s
+            if self._judge is not None:
+                self._judge.begin(self.target, t_s)
+        if self._dwelling_since_s is None:
+            return False
+        if self._judge is not None:
+            return self._judge.done(t_s)
+        return t_s - self._dwelling_since_s >= self._plan.targets[self.target].dwell_s
+
+    def _settling_s(self) -> float:
+        """How long the tool stays at the end of a slide."""
+        target = self._plan.targets[self.target]
+        return max(PAUSE_S, target.dwell_s) if target.following else PAUSE_S
 
     def _settled_down(self, t_s: float) -> bool:
         """Lean on the ground, stop the motors, wait."""
@@ -187,7 +222,7 @@ class Executive:
         if self.mode in (Mode.HOVER, Mode.LANDED):
             self.finished = True
             return
-        if self.mode == Mode.PRESS:
+        if self._judge is not None:
             self._take_reading(t_s)
         if self._leg + 1 == len(self._plan.legs):
             self._touch_down(t_s)
@@ -202,9 +237,9 @@ class Executive:
         self._guidance.go_to(t_s, [below], leg.speed_mps)
 
     def _begin(self, t_s: float, leg: Leg) -> None:
-        mode = Mode[leg.kind.upper()]
+        mode = MODES[leg.kind]
         self._enter(t_s, mode, -1 if leg.target is None else leg.target)
-        if leg.target is None or mode == Mode.TRANSIT:
+        if leg.target is None or mode in (Mode.TRANSIT, Mode.HOLD):
             postures = [posture_of(model) for model in leg.postures]
             self._guidance.go_to(t_s, postures, leg.speed_mps)
             return
@@ -213,8 +248,11 @@ class Executive:
             self._waiting_for_surface = True
             self._inputs.surface_seen_s = self._inputs.surface_agreed_s = t_s
         elif mode == Mode.PRESS:
-            self._judge, self._dwelling = self._new_judge(target), False
+            self._judge = self._new_judge(target) if target.sensor else None
+            self._dwelling_since_s = None
             self._guidance.approach(t_s, target, target.press_m, leg.speed_mps)
+        elif mode == Mode.SLIDE:
+            self._guidance.slide(t_s, target)
         else:
             self._guidance.approach(t_s, target, -target.standoff_m, leg.speed_mps)
 
@@ -225,20 +263,24 @@ class Executive:
         leg = self._plan.legs[self._leg]
         target = self._plan.targets[self.target]
         self._guidance.approach(t_s, target, -BEFORE_CONTACT_M, leg.speed_mps)
+        if target.following is not None and self._seen is not None:
+            # A surface that nobody described is aimed at by what is seen of it now.
+            self._guidance.observe(t_s, self._seen)
 
     def _enter(self, t_s: float, mode: Mode, target: int) -> None:
         self.mode, self.target, self._since_s = mode, target, t_s
         self._resting_since_s = None
         self._waiting_for_surface = False
         aim = self._plan.targets[target] if target >= 0 else None
-        pressing = aim is not None and mode in (Mode.PRESS, Mode.RETREAT)
-        self._inputs.press_m = aim.press_m if aim is not None and pressing else 0.0
+        self._inputs.press_m = aim.press_m if aim is not None and mode in TOUCHING else 0.0
         self._inputs.least_distance_m = NEAREST_SHARE * aim.standoff_m if aim else 0.0
+        if mode != Mode.HOVER:  # after an abort, possibly in contact, nothing shall change
+            self._guidance.take_impedance(aim.impedance if aim else self._plan.impedance)
         point = "" if target < 0 else f", point {self._plan.targets[target].label}"
         self.events.append(Event(t_s, "info", f"{mode.name.lower()}{point}"))
 
     def _take_reading(self, t_s: float) -> None:
-        assert self._judge is not None  # a press always has one
+        assert self._judge is not None  # the caller saw to it
         reading = self._judge.finish(t_s)
         _check_place(reading, self._plan.targets[self.target])
         self._judge = None
@@ -248,8 +290,7 @@ class Executive:
     def _abort(self, t_s: float, action: Action, reason: str) -> None:
         self.status, self.reason = "aborted", reason
         self.events.append(Event(t_s, "error", f"aborted: {reason}"))
-        near = self.mode in (Mode.APPROACH, Mode.PRESS, Mode.RETREAT)
-        if action == Action.RETREAT and near:
+        if action == Action.RETREAT and self.mode in NEAR:
             target = self._plan.targets[self.target]
             speed = self._plan.legs[self._leg].speed_mps
             self._guidance.approach(t_s, target, -target.standoff_m, speed)
@@ -257,7 +298,7 @@ class Executive:
             self._guidance.hold(t_s)
         self._judge = None
         for target in self._plan.targets:
-            if target.index not in self._judged:
+            if target.sensor is not None and target.index not in self._judged:
                 self.readings.append(_no_reading(t_s, target))
         self._enter(t_s, Mode.HOVER, -1)
 

@@ -87,8 +87,19 @@ def tracking_errors(estimate: Structured, reference: Structured) -> tuple[float,
     return np.sqrt(square), angle, np.sqrt(force)
 
 
-FLYING = frozenset({Mode.TAKEOFF, Mode.TRANSIT, Mode.APPROACH, Mode.PRESS, Mode.RETREAT, Mode.LAND})
-NEAR_SURFACE = frozenset({Mode.APPROACH, Mode.PRESS})
+FLYING = frozenset(
+    {
+        Mode.TAKEOFF,
+        Mode.TRANSIT,
+        Mode.HOLD,
+        Mode.APPROACH,
+        Mode.PRESS,
+        Mode.SLIDE,
+        Mode.RETREAT,
+        Mode.LAND,
+    }
+)
+NEAR_SURFACE = frozenset({Mode.APPROACH, Mode.PRESS, Mode.SLIDE})
 FREE = frozenset({Mode.TRANSIT, Mode.APPROACH})
 REACTION_S, BRAKING_MPS2 = 0.2, 1.0
 """How late and how hard the vehicle brakes, for the distance that it needs to stop."""
@@ -121,6 +132,13 @@ FAILSAFES: tuple[Failsafe, ...] = (
         NEAR_SURFACE,
         lambda i: not i.t_s - i.surface_seen_s <= STALE_S,
         1.5,
+        Action.RETREAT,
+    ),
+    Failsafe(
+        "surface lost while sliding",
+        frozenset({Mode.SLIDE}),
+        lambda i: not i.t_s - i.surface_seen_s <= STALE_S,
+        0.0,
         Action.RETREAT,
     ),
     Failsafe(

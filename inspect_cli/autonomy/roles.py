@@ -23,16 +23,24 @@ class Guidance(Protocol):
         """Pass postures at rest, one after the other."""
         ...
 
+    def take_impedance(self, name: str) -> None:
+        """Fly with an impedance profile from now on."""
+        ...
+
     def approach(self, t_s: float, target: Target, depth_m: float, speed_mps: float) -> None:
         """Aim the tool ``depth_m`` behind the target's surface (negative: in front of it)."""
+        ...
+
+    def slide(self, t_s: float, target: Target) -> None:
+        """Move along the target's stroke, or along the surface that is seen."""
         ...
 
     def observe(self, t_s: float, surface: SurfaceEstimate) -> None:
         """Correct the aim by what the camera sees."""
         ...
 
-    def contradicts(self, target: Target, surface: SurfaceEstimate) -> bool:
-        """Whether the surface cannot be the one that was planned at the target."""
+    def contradicts(self, t_s: float, target: Target, surface: SurfaceEstimate) -> bool:
+        """Whether the surface cannot be the one that is believed at the target."""
         ...
 
     def hold(self, t_s: float) -> None:

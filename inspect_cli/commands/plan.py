@@ -15,6 +15,7 @@ from inspect_cli.metrics.catalogue import METRICS
 from inspect_cli.planning.planner import make_plan
 from inspect_cli.schema.loading import Loaded, load_mission
 from inspect_cli.schema.plan import Plan, PlanFile
+from inspect_cli.structure.drawings import drawings_of
 from inspect_cli.structure.surfaces import believed_surfaces
 from inspect_cli.vehicles import build_vehicle
 from inspect_cli.vehicles.kinds import Vehicle
@@ -54,7 +55,7 @@ def inputs_sha256(loaded: Loaded) -> str:
 
 def vehicle_of(loaded: Loaded) -> Vehicle:
     """The vehicle that a mission is flown with."""
-    return build_vehicle(loaded.platform, loaded.mission.impedance)
+    return build_vehicle(loaded.platform)
 
 
 def plan_loaded(loaded: Loaded, vehicle: Vehicle) -> Plan:
@@ -73,6 +74,7 @@ def plan_loaded(loaded: Loaded, vehicle: Vehicle) -> Plan:
             half_cell.cable_m,
             half_cell.min_force_n,
             loaded.platform.battery.energy_wh,
+            drawings_of(loaded.mission, loaded.root),
         )
     except InfeasibleError as error:
         raise InfeasibleError(_placed(error.problems, loaded.mission_file)) from error

@@ -91,6 +91,30 @@ def impedance_wrench(
         wrench_B[3 + k] = torque
 
 
+@dataclass(frozen=True)
+class Impedance:
+    """What one profile makes of the law: shaping (2, 3, 3), diagonals of K̃ and D̃ (6,) in B."""
+
+    shaping: Matrix
+    stiffness: Vector
+    damping: Vector
+
+    @classmethod
+    def of(cls, model: ControlModel, profile: ImpedanceProfile, R_BT: Matrix) -> Impedance:
+        """The impedance of a profile with the tool turned as ``R_BT`` in B."""
+        stiffness = (profile.stiffness_npm or model.stiffness_npm) + model.stiffness_nmprad
+        damping = (profile.damping_nspm or model.damping_nspm) + model.damping_nmsprad
+        return cls(shaping_matrices(profile, R_BT), np.array(stiffness), np.array(damping))
+
+    def towards(self, other: Impedance, share: float) -> Impedance:
+        """The impedance a ``share`` of the way to another."""
+        return Impedance(
+            (1.0 - share) * self.shaping + share * other.shaping,
+            (1.0 - share) * self.stiffness + share * other.stiffness,
+            (1.0 - share) * self.damping + share * other.damping,
+        )
+
+
 def shaping_matrices(profile: ImpedanceProfile, R_BT: Matrix) -> Matrix:
     """R M̃⁻¹ Rᵀ − I of a profile, for force and torque; shape (2, 3, 3), in B."""
     R = R_BT if profile.frame == "tool" else np.eye(3)
@@ -108,38 +132,61 @@ class RigidBody:
     com_B: Vector
 
 
-class ImpedanceController:
-    """The law with its gains; one call writes the wrench into a Command."""
+BLEND_S = 0.5
+"""Over this time one profile gives way to another, so that the wrench does not jump."""
 
-    def __init__(
-        self, body: RigidBody, model: ControlModel, profile: ImpedanceProfile, R_BT: Matrix
-    ) -> None:
+
+class ImpedanceController:
+    """The law with the profiles of a platform; one call writes the wrench into a Command.
+
+    ``Reference.impedance`` says which profile holds, by its place in the platform's file. The
+    first one that is asked for holds at once; a later change is blended in over ``BLEND_S``.
+    """
+
+    def __init__(self, body: RigidBody, model: ControlModel, R_BT: Matrix, control_hz: int) -> None:
         self._body = body
-        self._profile = profile
-        self._shaping = shaping_matrices(profile, R_BT)
-        self._stiffness = np.array(model.stiffness_npm + model.stiffness_nmprad)
-        self._damping = np.array(model.damping_nspm + model.damping_nmsprad)
+        self._model = model
+        self._profiles = tuple(model.profiles.values())
+        self._blend_ticks = round(BLEND_S * control_hz)
+        self._tick = self._blend_ticks
+        self._chosen = -1
+        self.turn_tool(R_BT)
         self.weight_B = np.zeros(3)
 
     def turn_tool(self, R_BT: Matrix) -> None:
         """Follow an arm that turned its tool in B."""
-        self._shaping = shaping_matrices(self._profile, R_BT)
+        self._all = [Impedance.of(self._model, profile, R_BT) for profile in self._profiles]
+        if self._chosen >= 0:
+            self._now = self._before = self._all[self._chosen]
 
     def update(self, estimate: Estimate, reference: Reference, command: Command) -> None:
         """Write ``command.wrench_B``."""
         body = self._body
+        self._choose(int(reference.views["impedance"][0]))
         impedance_wrench(
             estimate.array,
             reference.array,
             body.mass_kg,
             body.inertia_B,
             body.com_B,
-            self._shaping,
-            self._stiffness,
-            self._damping,
+            self._now.shaping,
+            self._now.stiffness,
+            self._now.damping,
             command.array,
             self.weight_B,
         )
+
+    def _choose(self, profile: int) -> None:
+        """Follow the profile that the reference asks for."""
+        if profile != self._chosen:
+            first = self._chosen < 0
+            self._before = self._all[profile] if first else self._now
+            self._now, self._chosen = self._before, profile
+            self._tick = self._blend_ticks if first else 0
+        if self._tick < self._blend_ticks:
+            self._tick += 1
+            share = self._tick / self._blend_ticks
+            self._now = self._before.towards(self._all[profile], share)
 
 
 def steady_contact_force(
@@ -149,3 +196,12 @@ def steady_contact_force(
     R = R_BT if profile.frame == "tool" else np.eye(3)
     force: Vector = R @ np.diag(profile.mass) @ R.T @ (stiffness_npm * offset_B)
     return force
+
+
+def steady_press_force(
+    model: ControlModel, profile: ImpedanceProfile, R_BT: Matrix, press_m: float
+) -> float:
+    """The steady normal force, N, with the set-point ``press_m`` behind the surface."""
+    stiffness = np.array(profile.stiffness_npm or model.stiffness_npm)
+    z_T = R_BT[:, 2]
+    return float(-steady_contact_force(profile, stiffness, R_BT, -press_m * z_T) @ z_T)

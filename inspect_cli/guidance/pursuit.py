@@ -1,83 +1,42 @@
 """Writes the reference: flies plans, and corrects an approach by the surface that is seen.
 
-Normal-tracking pursuit: at each estimate of the local surface the planned contact point is moved
+Normal-tracking pursuit: at each estimate of the local surface the believed contact point is moved
 along the estimated normal onto the estimated plane, the tool is turned so that z_T = −n̂, and the
 trajectory is planned anew from the reference of that instant to the corrected set-point. That
 lies ``depth_m`` behind the plane on its normal, so pressing needs no switch of mode (Bodie et
 al., "An Omnidirectional Aerial Manipulation Platform for Contact-Based Inspection", RSS 2019).
 
-A tool that slides is one whose ``_Surface.p_WC`` moves along the surface; nothing else changes.
+Sliding moves that contact point: along a stroke of the plan, whose surface is corrected once by
+what was seen before, or along the seen surface itself, corrected by every estimate (section IV-E).
 """
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
 
-from inspect_cli.guidance.motion import MotionLimits
-from inspect_cli.guidance.orientation import contact_orientation, heading_orientation
+from inspect_cli.guidance.aim import Aim
+from inspect_cli.guidance.following import HORIZON_S, Following
+from inspect_cli.guidance.motion import Motion, MotionLimits
 from inspect_cli.guidance.quintic import evaluate_motion
+from inspect_cli.guidance.stroke import StrokePath, along, corrected
 from inspect_cli.guidance.trajectory import (
     CORRECTION_S,
+    Stretch,
     Trajectory,
     through,
     to_goal,
     to_stop,
+    turn_between,
 )
 from inspect_cli.interfaces import Capabilities, Posture, at_origin
 from inspect_cli.records import Reference, SurfaceEstimate
 from inspect_cli.schema.plan import Target
-from inspect_cli.spatial.arrays import Matrix, Vector
-from inspect_cli.spatial.rotations import quaternion_to_matrix
+from inspect_cli.spatial.arrays import Matrix, Structured, Vector
 
-MAX_TILT_RAD = float(np.radians(30.0))
-MAX_SHIFT_M = 0.30
-"""A plane turned or shifted by more than these from the planned one is taken for something else."""
-ARRIVAL_M = 0.005
-ARRIVAL_RAD = float(np.radians(2.0))
-"""Corrections smaller than these do not put off the arrival."""
-
-
-@dataclass(frozen=True)
-class _Surface:
-    """The surface at a target as it is believed, and how the tool is turned towards it."""
-
-    p_WC: Vector
-    n_W: Vector
-    R_WT: Matrix
-
-    @classmethod
-    def planned(cls, target: Target) -> _Surface:
-        """What the plan believes."""
-        R_WT = quaternion_to_matrix(np.array(target.q_WT))
-        return cls(np.array(target.p_WC), np.array(target.n_W), R_WT)
-
-    @classmethod
-    def seen(cls, target: Target, estimate: SurfaceEstimate) -> _Surface | None:
-        """The planned contact point moved along n̂ onto the seen plane; None if implausible.
-
-        y_T is level. Near the vertical a small error of n̂ would turn a level y axis by far, so
-        where a plausible correction could bring n̂ there the planned heading is kept.
-        """
-        plan = cls.planned(target)
-        n_W = estimate.n_W.copy()
-        shift = float(n_W @ (estimate.p_WC - plan.p_WC))
-        if not (n_W @ plan.n_W >= np.cos(MAX_TILT_RAD) and abs(shift) <= MAX_SHIFT_M):
-            return None
-        near_vertical = abs(plan.n_W[2]) > np.cos(MAX_TILT_RAD)
-        orientation = heading_orientation if near_vertical else contact_orientation
-        return cls(plan.p_WC + shift * n_W, n_W, orientation(n_W, plan.R_WT[:, 1]))
-
-    def set_point(self, depth_m: float) -> Vector:
-        """p_WT (3,) with the tip ``depth_m`` behind the surface."""
-        return self.p_WC - depth_m * self.n_W
-
-    def differs(self, other: _Surface, depth_m: float) -> bool:
-        """Whether going from the other's set-point to this one's is worth waiting for."""
-        way = np.linalg.norm(self.set_point(depth_m) - other.set_point(depth_m))
-        return bool(way > ARRIVAL_M or self.n_W @ other.n_W < np.cos(ARRIVAL_RAD))
+NO_SURFACES: Mapping[str, Structured] = {}
 
 
 @dataclass
@@ -87,21 +46,32 @@ class _Approach:
     target: Target
     depth_m: float
     limits: MotionLimits
-    surface: _Surface
-    announced: _Surface
-    """The surface for which the time of arrival was last set."""
+    aim: Aim
+    announced: Aim
+    """The aim for which the time of arrival was last set."""
+    sliding: bool = False
+    following: Following | None = None
 
 
 class Pursuit:
-    """Owns the reference and moves it smoothly: never a jump in p, v, a, q, ω or α."""
+    """Owns the reference and moves it smoothly: never a jump in p, v, a, q, ω or α.
 
-    def __init__(self, capabilities: Capabilities, posture: Posture) -> None:
+    ``surfaces`` are the believed ones by name, PRIMITIVE arrays of length 1: strokes lie on them.
+    """
+
+    def __init__(
+        self,
+        capabilities: Capabilities,
+        posture: Posture,
+        surfaces: Mapping[str, Structured] = NO_SURFACES,
+    ) -> None:
         self.capabilities = capabilities
         self.reference = Reference.create(capabilities.lengths)
         self.reference.target = -1.0
         self.reference.arm_angle[:] = posture.arm_angle
         self.implausible = 0
-        """Surface estimates that were not followed because they contradict the plan."""
+        """Surface estimates that were not followed because they contradict what is believed."""
+        self._surfaces = surfaces
         self._trajectory = Trajectory.resting(0.0, posture)
         self._approach: _Approach | None = None
         self._arrival_s = 0.0
@@ -119,6 +89,10 @@ class Pursuit:
         )
         self.write(0.0)
 
+    def take_impedance(self, name: str) -> None:
+        """Fly with a profile of the platform from now on."""
+        self.reference.impedance = float(self.capabilities.impedances.index(name))
+
     def go_to(self, t_s: float, postures: Sequence[Posture], speed_mps: float) -> None:
         """Fly through ``postures``, at rest in each, from wherever the reference is."""
         limits = MotionLimits.of(self.capabilities, speed_mps)
@@ -129,46 +103,71 @@ class Pursuit:
     def approach(self, t_s: float, target: Target, depth_m: float, speed_mps: float) -> None:
         """Aim the tip ``depth_m`` behind the surface at the target's contact point.
 
-        Negative depths are in front. A surface already seen at this target stays believed.
-        Raises ValueError when no posture reaches that point.
+        Negative depths are in front. A surface already seen at this target stays believed, and
+        so does the place to which the tool has slid. Raises ValueError when no posture reaches
+        that point.
         """
         limits = MotionLimits.of(self.capabilities, speed_mps)
-        surface = _Surface.planned(target)
-        if self._approach is not None and self._approach.target == target:
-            surface = self._approach.surface
-        aim = self._posture_for(target, surface, depth_m)
-        if aim is None:
-            raise ValueError(f"no posture puts the tool {depth_m} m behind {target.label}")
-        self._approach = _Approach(target, depth_m, limits, surface, surface)
         start = self._trajectory.motion(t_s)
-        self._follow(Trajectory(to_goal(t_s, start, aim, limits)))
+        aim = self._believed(target, start)
+        goal = self._posture_for(target, aim, depth_m)
+        if goal is None:
+            raise ValueError(f"no posture puts the tool {depth_m} m behind {target.label}")
+        self._approach = _Approach(target, depth_m, limits, aim, aim)
+        self._follow(Trajectory(to_goal(t_s, start, goal, limits)))
+
+    def slide(self, t_s: float, target: Target) -> None:
+        """Move the contact point: along the target's stroke, or along what the camera sees.
+
+        Begins where ``approach`` pressed the tool to. Raises ValueError when a posture along the
+        stroke cannot be reached.
+        """
+        approach = self._approach
+        if approach is None or approach.target != target:
+            raise ValueError(f"{target.label} has to be touched before the tool can slide")
+        approach.sliding = True
+        limits = MotionLimits.of(self.capabilities)
+        if target.following is not None:
+            approach.following = Following.begin(t_s, target.following, limits)
+            self._arrival_s = approach.following.end_s
+            return
+        self._follow(Trajectory(self._along_stroke(t_s, approach, limits)))
 
     def observe(self, t_s: float, surface: SurfaceEstimate) -> None:
         """Correct the approach by an estimate of the local surface.
 
         Without a valid estimate, or without an approach, nothing changes. An estimate that is
-        turned or shifted too far from the planned surface, or that cannot be reached, is counted
-        in ``implausible`` and otherwise ignored.
+        turned or shifted too far from the believed surface, or that cannot be reached, is
+        counted in ``implausible`` and otherwise ignored.
         """
         approach = self._approach
         if approach is None or surface.valid != 1.0:
             return
-        seen = _Surface.seen(approach.target, surface)
-        aim = None if seen is None else self._posture_for(approach.target, seen, approach.depth_m)
-        if seen is None or aim is None:
+        if approach.following is not None:
+            self._advance(t_s, approach, approach.following, surface)
+            return
+        seen = self._expected(approach).seen(surface)
+        goal = None if seen is None else self._posture_for(approach.target, seen, approach.depth_m)
+        if seen is None or goal is None:
             self.implausible += 1
             return
-        approach.surface = seen
-        remaining = max(self._trajectory.end_s - t_s, CORRECTION_S)
+        first = not approach.aim.found
+        approach.aim = seen
+        remaining = 0.0 if first else max(self._trajectory.end_s - t_s, CORRECTION_S)
         start = self._trajectory.motion(t_s)
-        self._trajectory = Trajectory(to_goal(t_s, start, aim, approach.limits, remaining))
-        if seen.differs(approach.announced, approach.depth_m):
+        self._trajectory = Trajectory(to_goal(t_s, start, goal, approach.limits, remaining))
+        if first or seen.differs(approach.announced, approach.depth_m):
             approach.announced = seen
             self._arrival_s = self._trajectory.end_s
 
-    def contradicts(self, target: Target, surface: SurfaceEstimate) -> bool:
+    def contradicts(self, t_s: float, target: Target, surface: SurfaceEstimate) -> bool:
         """Whether an estimate is turned or shifted too far to be the target's surface."""
-        return _Surface.seen(target, surface) is None
+        approach = self._approach
+        if approach is not None and approach.sliding and approach.target == target:
+            return self._believed(target, self._trajectory.motion(t_s)).seen(surface) is None
+        if target.following is not None:
+            return self._believed(target, None).seen(surface) is None
+        return Aim.planned(target).seen(surface) is None
 
     def hold(self, t_s: float) -> None:
         """Brake within the limits and stay there."""
@@ -202,17 +201,88 @@ class Pursuit:
         self._trajectory = trajectory
         self._arrival_s = trajectory.end_s
 
+    def _believed(self, target: Target, now: Motion | None) -> Aim:
+        """The aim at a target as it is believed; where the tool has slid to, the place it is at."""
+        approach = self._approach
+        if approach is None or approach.target != target:
+            return Aim.planned(target)
+        if not approach.sliding or now is None:
+            return approach.aim
+        p_WT, R_WT = self._tool(now)
+        return Aim.of_set_point(p_WT, R_WT, approach.depth_m, approach.aim.level)
+
+    def _expected(self, approach: _Approach) -> Aim:
+        """What an estimate is held against: the plan where there is one, else what was found.
+
+        Against the plan, so that a chain of plausible steps cannot walk off it.
+        """
+        return approach.aim if approach.target.following else Aim.planned(approach.target)
+
+    def _along_stroke(self, t_s: float, approach: _Approach, limits: MotionLimits) -> list[Stretch]:
+        """The set-points of the target's stroke, on the surface as it was last corrected."""
+        target, stroke = approach.target, approach.target.stroke
+        if stroke is None or target.surface is None:
+            raise ValueError(f"{target.label} has no line to slide along")
+        prim = self._surfaces[target.surface]
+        aim_at = corrected(prim, Aim.planned(target), approach.aim)
+
+        def posture_at(u: float, v: float) -> Posture:
+            posture = self._posture_for(target, aim_at(u, v), approach.depth_m)
+            if posture is None:
+                raise ValueError(f"no posture puts the tool on {target.label} at ({u:g}, {v:g})")
+            return posture
+
+        first = posture_at(*stroke.pieces_m[0][0])
+        stretches = to_goal(t_s, self._trajectory.motion(t_s), first, approach.limits)
+        for piece in stroke.pieces_m:
+            path = StrokePath(np.array(piece), stroke.speed_mps, limits.acceleration_mps2)
+            stretches += along(stretches[-1].end_s, path, posture_at)
+        return stretches
+
+    def _advance(
+        self, t_s: float, approach: _Approach, following: Following, surface: SurfaceEstimate
+    ) -> None:
+        """Aim ahead along the plane that is seen where the reference is now."""
+        now = self._trajectory.motion(t_s)
+        seen = self._believed(approach.target, now).seen(surface)
+        if seen is None:
+            self.implausible += 1
+            return
+        way_m, speed_mps, change_mps2 = following.ahead(t_s)
+        forward = following.direction(seen.R_WT)
+        ahead = seen.at(seen.p_WC + way_m * forward, seen.n_W)
+        goal = self._posture_for(approach.target, ahead, approach.depth_m)
+        if goal is None:
+            self.implausible += 1
+            return
+        approach.aim = seen
+        passing = goal.p_WB, speed_mps * forward, change_mps2 * forward
+        phi = turn_between(now.q_WB, goal.q_WB)
+        stretch = Stretch.to_motion(
+            t_s, now, passing, phi, np.asarray(goal.arm_angle), HORIZON_S, HORIZON_S
+        )
+        limits = MotionLimits.of(self.capabilities)
+        braking = to_stop(stretch.end_s, stretch.motion(stretch.end_s), limits)
+        self._trajectory = Trajectory([stretch, braking] if speed_mps > 0.0 else [stretch])
+        self._arrival_s = following.end_s
+
+    def _tool(self, motion: Motion) -> tuple[Vector, Matrix]:
+        """(p_WT, R_WT) of the reference in a motion."""
+        return self.capabilities.tool_pose(Posture(motion.p_WB, motion.q_WB, motion.arm[0]))
+
     def _tool_offset(self) -> Vector:
         """p_BT (3,) with the arm as it is asked now."""
         p_BT, _ = self.capabilities.tool_pose(at_origin(self._arm_angle))
         return np.array(p_BT, dtype=np.float64)
 
-    def _posture_for(self, target: Target, surface: _Surface, depth_m: float) -> Posture | None:
+    def _posture_for(self, target: Target, aim: Aim, depth_m: float) -> Posture | None:
         """The posture with the tip ``depth_m`` behind the surface, the closest to the planned."""
-        planned = Posture(
-            np.array(target.contact.p_WB),
-            np.array(target.contact.q_WB),
-            np.array(target.contact.arm_angle_rad),
+        return self.capabilities.posture_for_tool(
+            aim.set_point(depth_m), aim.R_WT, planned_posture(target)
         )
-        p_WT = surface.set_point(depth_m)
-        return self.capabilities.posture_for_tool(p_WT, surface.R_WT, planned)
+
+
+def planned_posture(target: Target) -> Posture:
+    """The posture of the target's contact, by the plan."""
+    contact = target.contact
+    return Posture(np.array(contact.p_WB), np.array(contact.q_WB), np.array(contact.arm_angle_rad))

@@ -2,7 +2,7 @@
 
 A stretch of duration T is a polynomial of degree five in s = t / T for each axis of the body's
 position p(s), and for the rotation vector φ(s) of the attitude R(s) = R_0 Exp(φ(s)). It leaves
-with a given rate and acceleration and ends at rest. From rest to rest it is the minimum-jerk
+and arrives with given rates and accelerations. From rest to rest it is the minimum-jerk
 profile (Flash & Hogan, J. Neurosci. 5 (1985) 1688): a straight line and a single-axis turn.
 
 Rates of rotation (Solà, Deray & Atchuthan, arXiv 1812.01537, eq. 143): ω = J_r(φ) φ̇ with
@@ -25,20 +25,28 @@ the largest sample is within 1 % of them."""
 
 
 @kernel
-def quintic_to_rest(
-    x: Vector, rate: Vector, acceleration: Vector, goal: Vector, duration: float, c: Matrix
+def quintic_between(
+    x: Vector,
+    rate: Vector,
+    acceleration: Vector,
+    goal: Vector,
+    goal_rate: Vector,
+    goal_acceleration: Vector,
+    duration: float,
+    c: Matrix,
 ) -> None:
-    """Write the coefficients c (6, n) in s of x(s) = Σ c_k s^k from (x, ẋ, ẍ) to rest at goal."""
+    """Write the coefficients c (6, n) in s of x(s) = Σ c_k s^k between two motions (x, ẋ, ẍ)."""
+    half_square = 0.5 * duration * duration
     for i in range(x.size):
-        v = rate[i] * duration
-        a = 0.5 * acceleration[i] * duration * duration
+        v, w = rate[i] * duration, goal_rate[i] * duration
+        a, b = acceleration[i] * half_square, goal_acceleration[i] * half_square
         d = goal[i] - x[i]
         c[0, i] = x[i]
         c[1, i] = v
         c[2, i] = a
-        c[3, i] = 10.0 * d - 6.0 * v - 3.0 * a
-        c[4, i] = -15.0 * d + 8.0 * v + 3.0 * a
-        c[5, i] = 6.0 * d - 3.0 * v - a
+        c[3, i] = 10.0 * d - 6.0 * v - 4.0 * w - 3.0 * a + b
+        c[4, i] = -15.0 * d + 8.0 * v + 7.0 * w + 3.0 * a - 2.0 * b
+        c[5, i] = 6.0 * d - 3.0 * v - 3.0 * w - a + b
 
 
 @kernel

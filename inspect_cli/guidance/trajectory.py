@@ -23,7 +23,7 @@ from inspect_cli.guidance.motion import Motion, MotionLimits
 from inspect_cli.guidance.quintic import (
     evaluate_motion,
     evaluate_quintic,
-    quintic_to_rest,
+    quintic_between,
     survey,
 )
 from inspect_cli.interfaces import Posture
@@ -77,12 +77,32 @@ class Stretch:
         turn_s: float,
     ) -> Stretch:
         """From ``start`` to rest at ``p_WB`` (3,), attitude R_0 Exp(``phi`` (3,)), ``arm`` (n,)."""
+        still = np.zeros(3), np.zeros(3)
+        return cls.to_motion(start_s, start, (p_WB, *still), phi, arm, duration_s, turn_s)
+
+    @classmethod
+    def to_motion(
+        cls,
+        start_s: float,
+        start: Motion,
+        goal: tuple[Vector, Vector, Vector],
+        phi: Vector,
+        arm: Vector,
+        duration_s: float,
+        turn_s: float,
+    ) -> Stretch:
+        """Like ``to_rest``, but the body passes its goal (p_WB, v_WB_W, a_WB_W) in motion."""
         position, rotation = np.empty((6, 3)), np.empty((6, 3))
-        joints = np.empty((6, start.arm.shape[1]))
-        quintic_to_rest(start.p_WB, start.v_WB_W, start.a_WB_W, p_WB, duration_s, position)
-        quintic_to_rest(np.zeros(3), start.w_WB_B, start.alpha_WB_B, phi, turn_s, rotation)
+        joints, none = np.empty((6, start.arm.shape[1])), np.zeros(start.arm.shape[1])
+        still = np.zeros(3)
+        quintic_between(
+            start.p_WB, start.v_WB_W, start.a_WB_W, *goal, duration_s, position
+        )  # fmt: skip
+        quintic_between(
+            still, start.w_WB_B, start.alpha_WB_B, phi, still, still, turn_s, rotation
+        )  # fmt: skip
         angle, rate, acceleration = start.arm
-        quintic_to_rest(angle, rate, acceleration, arm, duration_s, joints)
+        quintic_between(angle, rate, acceleration, arm, none, none, duration_s, joints)
         return cls(start_s, duration_s, turn_s, position, rotation, start.q_WB, joints)
 
     @property

@@ -208,7 +208,7 @@ METRICS: dict[str, MetricSpec] = {
     "contact.points_total": MetricSpec(
         "1",
         half_cell.points_total,
-        "points that the plan wants touched",
+        "points that the plan wants read",
         (),
         SUM,
     ),

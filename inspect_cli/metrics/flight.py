@@ -23,6 +23,9 @@ SAME_TICK_S = 0.020
 
 Rows = NDArray[np.intp]
 
+TOUCHED = ("contact", "stroke", "following")
+"""Kinds of target that the tool presses on."""
+
 
 class NotMeasured(Exception):
     """The log does not hold what a metric is computed from; the text says what is missing."""
@@ -135,14 +138,22 @@ class Flight:
 
     @cached_property
     def contact_targets(self) -> tuple[Target, ...]:
-        """The targets that the plan wants touched."""
-        targets = tuple(t for t in self.plan.targets if t.kind == "contact")
+        """The targets that the plan wants touched: points, strokes and surfaces to follow."""
+        targets = tuple(t for t in self.plan.targets if t.kind in TOUCHED)
         if not targets:
-            raise NotMeasured("the plan has no point to touch")
+            raise NotMeasured("the plan has nothing to touch")
+        return targets
+
+    @cached_property
+    def read_targets(self) -> tuple[Target, ...]:
+        """The targets at which an instrument shall be read."""
+        targets = tuple(t for t in self.plan.targets if t.sensor is not None)
+        if not targets:
+            raise NotMeasured("the plan has no point to read")
         return targets
 
     def contact_rows(self, target: int) -> Rows:
-        """Rows of approach, press and retreat of a target, from first touch to release."""
+        """Rows of approach, press, slide and retreat of a target, first touch to release."""
         busy = self.in_modes(Mode.APPROACH, Mode.RETREAT)
         return self._first_to_last_touch(busy & (self.reference["target"] == target))
 

@@ -9,20 +9,20 @@ from inspect_cli.schema.result import PointResult
 
 
 def contact_points(flight: Flight) -> list[PointResult]:
-    """The results of the targets that were to be touched.
+    """The results of the targets that were to be read.
 
     Raises:
         NotMeasured: the plan has none, or the log has no channel of readings.
     """
     if flight.log.rows(Reading) is None:
         raise NotMeasured(f"the log has nothing on {Reading.topic}")
-    wanted = {target.index for target in flight.contact_targets}
+    wanted = {target.index for target in flight.read_targets}
     return [point for point in point_results(flight) if point.index in wanted]
 
 
 def points_total(flight: Flight) -> float:
-    """Number of points that the plan wants touched."""
-    return float(len(flight.contact_targets))
+    """Number of points that the plan wants read."""
+    return float(len(flight.read_targets))
 
 
 def points_valid(flight: Flight) -> float:

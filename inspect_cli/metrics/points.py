@@ -1,4 +1,4 @@
-"""What became of each target of the plan."""
+"""What became of each target of the plan that was to be read."""
 
 from __future__ import annotations
 
@@ -30,10 +30,11 @@ class TrueValues:
 
 
 def point_results(flight: Flight) -> tuple[PointResult, ...]:
-    """One result for each target of the plan, in the plan's order."""
+    """One result for each target of the plan that is read, in the plan's order."""
     readings = flight.log.rows(Reading)
     last = {} if readings is None else {float(row["target"]): row for row in readings}
-    return tuple(_point(flight, target, last.get(target.index)) for target in flight.plan.targets)
+    read = (target for target in flight.plan.targets if target.sensor is not None)
+    return tuple(_point(flight, target, last.get(target.index)) for target in read)
 
 
 def _point(flight: Flight, target: Target, reading: Structured | None) -> PointResult:

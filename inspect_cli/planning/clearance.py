@@ -50,7 +50,9 @@ class Scene:
     def of(cls, surfaces: Sequence[PlannedSurface]) -> Scene:
         """The scene of all believed surfaces."""
         prims = primitives_of([surface.shape for surface in surfaces])
-        corners = np.concatenate([_patch_points(prims, i) for i in range(len(prims))])
+        corners = np.zeros((1, 3))  # with nothing to keep clear of, the origin will do
+        if len(prims):
+            corners = np.concatenate([_patch_points(prims, i) for i in range(len(prims))])
         names = tuple(surface.name for surface in surfaces)
         return cls(prims, names, corners.min(axis=0), corners.max(axis=0))
 

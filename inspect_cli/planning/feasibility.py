@@ -55,7 +55,7 @@ def assess(
     In contact the surface pushes the tool's tip along its outward normal with the expected
     force f: the wrench on the tip is (f n, 0).
     """
-    force_n = capabilities.press_force(point.options.press_m)
+    force_n = capabilities.press_force(point.options.press_m, point.impedance)
     pushed = np.concatenate([force_n * point.n_W, np.zeros(3)])
     free = capabilities.margins(touch.standoff, FREE)
     loaded = capabilities.margins(touch.contact, pushed)
@@ -123,7 +123,7 @@ def gap_reasons(gap: Gap, clearance_m: float) -> list[Reason]:
 
 
 def _force_reasons(force_n: float, point: ContactPoint, limits: Limits) -> list[Reason]:
-    if force_n >= limits.min_force_n:
+    if point.sensor is None or force_n >= limits.min_force_n:
         return []
     what = (
         f"press_m {point.options.press_m:.3f} gives {force_n:.2f} N, "

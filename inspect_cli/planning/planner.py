@@ -2,42 +2,33 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import replace
 
 import numpy as np
 
 from inspect_cli.errors import InfeasibleError, Problem
 from inspect_cli.interfaces import Capabilities, Posture
 from inspect_cli.planning.clearance import Scene, gap_along
-from inspect_cli.planning.contact_poses import Touch, touches
+from inspect_cli.planning.errands import Errand, Situation, errands_of
 from inspect_cli.planning.feasibility import (
     FREE,
     Limits,
     Reason,
-    assess,
-    cable_reasons,
     clamp_of,
     gap_reasons,
     margin_reasons,
 )
-from inspect_cli.planning.legs import Itinerary, Visit, plan_of
-from inspect_cli.planning.order import visiting_order
+from inspect_cli.planning.legs import Itinerary, plan_of
 from inspect_cli.planning.path import Stop, find_way
-from inspect_cli.planning.points import ContactPoint, in_words, points_of_task
+from inspect_cli.planning.visits import Visit
 from inspect_cli.schema.mission import Mission, Start
 from inspect_cli.schema.plan import Plan, PlannedSurface
 from inspect_cli.schema.primitives import primitive_of
 from inspect_cli.spatial.rotations import quaternion_exp
+from inspect_cli.structure.drawings import Stroke
 
-
-@dataclass(frozen=True)
-class Situation:
-    """What is the same for every point of a mission."""
-
-    capabilities: Capabilities
-    scene: Scene
-    limits: Limits
+NO_DRAWINGS: Mapping[int, Sequence[Stroke]] = {}
 
 
 def make_plan(
@@ -48,11 +39,13 @@ def make_plan(
     cable_m: float,
     min_force_n: float = 0.0,
     battery_wh: float = np.inf,
+    drawings: Mapping[int, Sequence[Stroke]] = NO_DRAWINGS,
 ) -> Plan:
     """Plan the whole flight of a mission on the believed surfaces.
 
     ``cable_m`` is the length of the instrument's cable from the start, ``min_force_n`` the
-    force below which the instrument does not read, ``battery_wh`` the usable energy. Raises
+    force below which the instrument does not read, ``battery_wh`` the usable energy,
+    ``drawings`` the strokes of the tasks that trace, by the task's place. Raises
     InfeasibleError with one problem per point that cannot be touched: its label and the
     physical reasons.
     """
@@ -62,12 +55,13 @@ def make_plan(
     situation = Situation(capabilities, scene, limits)
     _check_start(situation, standing, hover)
 
-    points = _in_order(mission, capabilities, surfaces, hover)
-    visits, problems = _visit_all(situation, points, hover)
+    prims = {surface.name: primitive_of(surface.shape) for surface in surfaces}
+    errands = errands_of(mission, capabilities, prims, drawings, hover)
+    visits, problems = _visit_all(situation, errands, hover)
     last = visits[-1].stop if visits else Stop(hover, np.zeros(3))
     home = find_way(capabilities, scene, last, Stop(hover, np.zeros(3)), limits.clearance_m)
     if home is None:
-        reason = f"no clear way home from point {visits[-1].point.label} to the start"
+        reason = f"no clear way home from point {visits[-1].label} to the start"
         problems.append(Problem(reason, hint="start elsewhere, or take off higher"))
     if problems or home is None:
         raise InfeasibleError(problems)
@@ -118,75 +112,21 @@ def _check_start(situation: Situation, standing: Posture, hover: Posture) -> Non
         raise InfeasibleError(_problem("start", reasons))
 
 
-def _in_order(
-    mission: Mission,
-    capabilities: Capabilities,
-    surfaces: Sequence[PlannedSurface],
-    hover: Posture,
-) -> list[ContactPoint]:
-    """All points in the order of the visits, tasks one after the other."""
-    prims = {surface.name: primitive_of(surface.shape) for surface in surfaces}
-    tip_W = capabilities.tool_pose(hover)[0]
-    ordered: list[ContactPoint] = []
-    for task in mission.tasks:
-        contact = task.contact
-        points = points_of_task(task, prims[contact.on], len(ordered) + 1)
-        ordered += [points[k] for k in visiting_order(contact, points, tip_W)]
-        tip_W = ordered[-1].in_front(contact.standoff_m)
-    return ordered
-
-
 def _visit_all(
-    situation: Situation, points: Sequence[ContactPoint], hover: Posture
+    situation: Situation, errands: Iterator[Errand], hover: Posture
 ) -> tuple[list[Visit], list[Problem]]:
-    """Visits one after the other; a point that fails is left out and its problem returned."""
+    """Visits one after the other; one that fails is left out and its problem returned."""
     stop = Stop(hover, np.zeros(3))
     visits: list[Visit] = []
     problems: list[Problem] = []
-    for point in points:
-        found = _visit(situation, point, stop)
-        if isinstance(found, Visit):
+    for errand in errands:
+        found = errand.visit(situation, stop)
+        if isinstance(found, list):
+            problems.append(_problem(errand.name, found))
+        else:
             visits.append(found)
             stop = found.stop
-        else:
-            problems.append(_problem(f"point {point.label} on '{point.surface}'", found))
     return visits, problems
-
-
-def _visit(situation: Situation, point: ContactPoint, before: Stop) -> Visit | list[Reason]:
-    """The best way of touching a point that can be flown, or what speaks against the best."""
-    if point.fault:
-        return [Reason(point.fault, "give points on the patch, or enlarge it")]
-    reasons: list[Reason] = []
-    for touch in touches(situation.capabilities, point, before.posture):
-        found = _attempt(situation, point, touch, before)
-        if isinstance(found, Visit):
-            return found
-        reasons = reasons or found
-    return reasons or [_unreachable(point), *cable_reasons(point, situation.limits)]
-
-
-def _attempt(
-    situation: Situation, point: ContactPoint, touch: Touch, before: Stop
-) -> Visit | list[Reason]:
-    found = assess(situation.capabilities, situation.scene, point, touch, situation.limits)
-    if found.reasons:
-        return list(found.reasons)
-    stop = Stop(touch.standoff, point.n_W)
-    way = find_way(
-        situation.capabilities, situation.scene, before, stop, situation.limits.clearance_m
-    )
-    if way is None:
-        origin = in_words(before.posture.p_WB)
-        clearance_m = situation.limits.clearance_m
-        what = f"no way from {origin} keeps {clearance_m:.3f} m from the structure"
-        return [Reason(what, "start elsewhere, or allow less clearance")]
-    return Visit(point, touch, way, found)
-
-
-def _unreachable(point: ContactPoint) -> Reason:
-    what = f"no posture brings the tool to {in_words(point.p_WC)} along {in_words(-point.n_W)}"
-    return Reason(what, "use a tool at another angle, or touch another surface")
 
 
 def _problem(who: str, reasons: Sequence[Reason]) -> Problem:

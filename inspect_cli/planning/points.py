@@ -4,12 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from dataclasses import dataclass
-from typing import Literal
 
 import numpy as np
 
 from inspect_cli.schema.base import Triple
-from inspect_cli.schema.mission import ContactGrid, ContactOptions, Task
+from inspect_cli.schema.tasks import ContactGrid, ContactPoints, Instrument, Pressing, Task
 from inspect_cli.spatial.arrays import Structured, Vector
 from inspect_cli.spatial.primitives import normal_at, point_at, project
 
@@ -30,8 +29,9 @@ class ContactPoint:
     uv_m: tuple[float, float]
     p_WC: Vector
     n_W: Vector
-    options: ContactOptions
-    sensor: Literal["half_cell"]
+    options: Pressing
+    impedance: str
+    sensor: Instrument | None = None
     fault: str = ""
 
     def in_front(self, distance_m: float) -> Vector:
@@ -40,30 +40,50 @@ class ContactPoint:
         return ahead
 
 
-def points_of_task(task: Task, prim: Structured, first_number: int) -> list[ContactPoint]:
-    """The task's points in the order in which the mission gives them.
+def points_of_task(
+    task: Task, prim: Structured, first_number: int, impedance: str
+) -> list[ContactPoint]:
+    """The points of a task of contacts in the order in which the mission gives them.
 
     ``prim`` is the surface's PRIMITIVE array of length 1. Points are labelled with numbers
     from ``first_number`` on. Points that cannot be touched are returned with their fault.
+    ``impedance`` is the profile that they are touched with.
     """
-    contact = task.contact
+    contact = task.work
+    assert isinstance(contact, ContactGrid | ContactPoints)  # the planner sorts tasks by kind
     if isinstance(contact, ContactGrid):
         places = [(u, v, "") for u, v in grid_uv(contact)]
     else:
         places = [_projected(prim, p_W, contact.tolerance_m) for p_W in contact.at_m]
     return [
-        ContactPoint(
-            label=str(number),
-            surface=contact.on,
-            uv_m=(u, v),
-            p_WC=point_at(prim, 0, u, v),
-            n_W=normal_at(prim, 0, u, v),
-            options=contact,
-            sensor=task.sensor,
-            fault=fault or _outside(prim, u, v),
-        )
+        point_on(prim, (u, v), str(number), contact.on, contact, impedance, task.instrument, fault)
         for number, (u, v, fault) in enumerate(places, first_number)
     ]
+
+
+def point_on(
+    prim: Structured,
+    uv_m: tuple[float, float],
+    label: str,
+    surface: str,
+    options: Pressing,
+    impedance: str,
+    sensor: Instrument | None = None,
+    fault: str = "",
+) -> ContactPoint:
+    """The point at (u, v) m of a surface, with its fault where it lies outside of the patch."""
+    u, v = uv_m
+    return ContactPoint(
+        label=label,
+        surface=surface,
+        uv_m=uv_m,
+        p_WC=point_at(prim, 0, u, v),
+        n_W=normal_at(prim, 0, u, v),
+        options=options,
+        impedance=impedance,
+        sensor=sensor,
+        fault=fault or _outside(prim, u, v),
+    )
 
 
 def in_words(vector: Iterable[float]) -> str:

@@ -14,11 +14,10 @@ from inspect_cli.schema.base import (
     Triple,
 )
 from inspect_cli.schema.geometry import Displacement, Shape
+from inspect_cli.schema.tasks import Task
 from inspect_cli.schema.truth import TruthModel
 
 Fit = Literal["plane", "sphere", "cylinder", "auto"]
-
-MAX_POINTS = 10_000
 
 
 def _without_repetition(seeds: tuple[int, ...]) -> tuple[int, ...]:
@@ -100,73 +99,6 @@ class StructureSurface(Strict):
     surface: SurfaceSource
 
 
-class ContactOptions(Strict):
-    """How each point of a task is touched."""
-
-    press_m: Annotated[float, Field(gt=0, le=1.0)] = 0.10
-    """Set-point behind the surface while pressing."""
-    dwell_s: Annotated[float, Field(gt=0, le=3600)] = 3.0
-    """Time with sufficient force before a reading may be accepted."""
-    standoff_m: Annotated[float, Field(gt=0, le=1.5)] = 0.25
-    """Distance of the tool's tip from the surface before approach and after retreat."""
-    off_target_m: Positive = 0.03
-    """A reading taken farther than this from its point, along the surface, does not count."""
-
-
-class ContactGrid(ContactOptions):
-    """A grid of points along the surface's level direction u and along v."""
-
-    on: Name
-    rows: Annotated[int, Field(ge=1, le=1000)]
-    columns: Annotated[int, Field(ge=1, le=1000)]
-    pitch_m: Positive
-    offset_m: tuple[float, float] = (0.0, 0.0)
-    """(u, v) of the grid's middle from the middle of the surface."""
-    order: Literal["boustrophedon", "rows", "shortest"] = "boustrophedon"
-
-    @model_validator(mode="after")
-    def _not_too_many(self) -> ContactGrid:
-        count = self.rows * self.columns
-        if count > MAX_POINTS:
-            raise ValueError(
-                f"{self.rows} rows of {self.columns} columns are {count} points; "
-                f"at most {MAX_POINTS} in one task: split it into several missions"
-            )
-        return self
-
-
-class ContactPoints(ContactOptions):
-    """Points given one by one."""
-
-    on: Name
-    at_m: Annotated[tuple[Triple, ...], Field(min_length=1, max_length=MAX_POINTS)]
-    """World positions on the surface, within ``tolerance_m`` of it."""
-    tolerance_m: Positive = 0.05
-    order: Literal["given", "shortest"] = "given"
-
-
-class Task(Strict):
-    """Something to touch and the instrument to touch it with."""
-
-    contact_grid: ContactGrid | None = None
-    contact_points: ContactPoints | None = None
-    sensor: Literal["half_cell"] = "half_cell"
-
-    @model_validator(mode="after")
-    def _one_task(self) -> Task:
-        given = [n for n in ("contact_grid", "contact_points") if getattr(self, n) is not None]
-        if len(given) != 1:
-            raise ValueError("give exactly one of contact_grid, contact_points")
-        return self
-
-    @property
-    def contact(self) -> ContactGrid | ContactPoints:
-        """The one that is given."""
-        chosen = self.contact_grid or self.contact_points
-        assert chosen is not None  # the validator saw to it
-        return chosen
-
-
 class Start(Strict):
     """Where the vehicle stands before take-off and lands again."""
 
@@ -221,13 +153,14 @@ class Mission(Strict):
     platform: str
     """Name of a platform in ``platforms/``, or a path to its file in the campaign folder."""
     impedance: Name = "contact_ndt"
-    """Which of the platform's impedance profiles to fly with."""
+    """Which of the platform's impedance profiles to fly with, where a task names none."""
     estimation: Literal["external"] = "external"
     seeds: Seeds = (1, 2, 3)
     tags: tuple[Name, ...] = ()
     start: Start = Start()
     flight: FlightOptions = FlightOptions()
-    structure: Annotated[tuple[StructureSurface, ...], Field(min_length=1)]
+    structure: tuple[StructureSurface, ...] = ()
+    """What is known beforehand; a vehicle that servoes or holds a pose needs none of it."""
     tasks: Annotated[tuple[Task, ...], Field(min_length=1)]
     expect_status: Literal["completed", "aborted"] = "completed"
     """How the flight has to end for the regression to pass."""
@@ -240,9 +173,9 @@ class Mission(Strict):
             if names.count(name) > 1:
                 raise ValueError(f"two surfaces are named '{name}'")
         for task in self.tasks:
-            if task.contact.on not in names:
-                known = ", ".join(names)
-                raise ValueError(f"a task is on '{task.contact.on}'; the surfaces are: {known}")
+            if task.on is not None and task.on not in names:
+                known = ", ".join(names) if names else "none"
+                raise ValueError(f"a task is on '{task.on}'; the surfaces are: {known}")
         return self
 
 

@@ -18,7 +18,11 @@ def _unit(value: tuple[float, float, float, float]) -> tuple[float, float, float
 
 
 Quaternion = Annotated[tuple[float, float, float, float], AfterValidator(_unit)]
-LegKind = Literal["takeoff", "transit", "approach", "press", "retreat", "land"]
+LegKind = Literal["takeoff", "transit", "hold", "approach", "press", "slide", "retreat", "land"]
+ToolDirection = Literal["x", "-x", "y", "-y"]
+
+
+Piece = Annotated[tuple[tuple[float, float], ...], Field(min_length=2)]
 
 
 class PostureModel(Strict):
@@ -50,15 +54,47 @@ class PlannedSurface(Strict):
     fit: FitReport | None = None
 
 
+class Stroke(Strict):
+    """A line on a believed surface that the tool follows without lifting."""
+
+    pieces_m: Annotated[tuple[Piece, ...], Field(min_length=1)]
+    """(u, v) of the points of each smooth piece; the tool rests between pieces."""
+    speed_mps: Positive
+    drawing: Annotated[int, Field(ge=0)] = 0
+    """Which of the mission's drawings it belongs to,"""
+    trial: Annotated[int, Field(ge=0)] = 0
+    """for the how manieth time it is drawn,"""
+    part: Annotated[int, Field(ge=0)] = 0
+    """and which of the drawing's strokes it is."""
+
+
+class Following(Strict):
+    """A way along a surface that is known by the depth camera alone."""
+
+    direction: ToolDirection
+    """Of the tool's frame T."""
+    distance_m: NonNegative
+    speed_mps: Positive
+
+
 class Target(Strict):
-    """Something that the vehicle goes to: a contact, a perch or a pose in free air."""
+    """Something that the vehicle goes to.
+
+    A contact is a point to touch, a stroke begins where the tool first touches, a following
+    where the tool looks from, a pose hangs in free air. ``p_WC`` and ``n_W`` of a pose and of a
+    following are those of the tool: its tip, and the direction against its axis.
+    """
 
     index: Annotated[int, Field(ge=0)]
     label: str
-    kind: Literal["contact", "perch", "pose"]
+    kind: Literal["contact", "stroke", "following", "pose", "perch"]
+    impedance: Name
+    """The profile of the platform that is flown with, from the way there on."""
     surface: Name | None
     uv_m: tuple[float, float] | None
     """Coordinates on the surface."""
+    stroke: Stroke | None = None
+    following: Following | None = None
     p_WC: Triple
     """The planned contact point."""
     n_W: Triple
@@ -102,6 +138,8 @@ class Plan(Strict):
     schema_version: Annotated[Literal[1], Field(alias="schema")] = 1
     mission: Name
     platform: Name
+    impedance: Name
+    """The profile that is flown with where no target says otherwise."""
     surfaces: tuple[PlannedSurface, ...]
     start: PostureModel
     targets: Annotated[tuple[Target, ...], Field(min_length=1)]
@@ -120,7 +158,7 @@ class Plan(Strict):
             if target.index != place:
                 raise ValueError(f"target {place} has the index {target.index}")
         for leg in self.legs:
-            needs_target = leg.kind in ("approach", "press", "retreat")
+            needs_target = leg.kind in ("hold", "approach", "press", "slide", "retreat")
             if leg.target is None and needs_target:
                 raise ValueError(f"a leg of kind {leg.kind} has no target")
             if leg.target is not None and not 0 <= leg.target < len(self.targets):

@@ -14,12 +14,13 @@ from inspect_cli.schema.nodes import Node, join, matches, replaced
 FILES = (
     "structure.*.surface.cloud",
     "structure.*.surface.mesh",
+    "tasks.*.trace.svg",
     "truth.structure.*.specimen.potential_mv",
     "truth.structure.*.specimen.resistivity_kohm_cm",
 )
 """Where a mission names files; their paths are relative to the file that they stand in."""
 
-SURFACES = ("tasks.*.contact_grid.on", "tasks.*.contact_points.on")
+SURFACES = ("tasks.*.contact_grid.on", "tasks.*.contact_points.on", "tasks.*.trace.on")
 """Where a mission names one of its surfaces."""
 
 

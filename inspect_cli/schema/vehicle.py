@@ -134,6 +134,9 @@ class ImpedanceProfile(Strict):
     frame: Literal["tool", "body"]
     mass: PositiveTriple
     inertia: PositiveTriple
+    stiffness_npm: PositiveTriple | None = None
+    """Instead of the platform's, along the axes of B."""
+    damping_nspm: PositiveTriple | None = None
 
 
 class ControlModel(Strict):

@@ -19,6 +19,7 @@ from inspect_cli.interfaces import Posture
 from inspect_cli.log.writer import LogWriter
 from inspect_cli.records import State, SurfaceEstimate
 from inspect_cli.schema.plan import Plan, Target
+from inspect_cli.schema.primitives import primitive_of
 from inspect_cli.schema.result import Status
 from inspect_cli.schema.truth import TruthModel
 from inspect_cli.sensing.reading import ReadingJudge
@@ -71,7 +72,8 @@ class Flight:
         self.contact = ContactTruth(structure)
         self.instruments = Instruments(platform, structure.primitives, Faults(truth.faults), seed)
         self.stack = vehicle.flight_stack()
-        self.guidance = Pursuit(vehicle.capabilities, posture_of(plan.start))
+        believed = {surface.name: primitive_of(surface.shape) for surface in plan.surfaces}
+        self.guidance = Pursuit(vehicle.capabilities, posture_of(plan.start), believed)
         self.surface = SurfaceEstimate.create()
         self._capabilities = vehicle.capabilities
         self._p_BD = np.array(platform.sensors.tof.position_B_m)

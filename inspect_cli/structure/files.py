@@ -9,7 +9,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from inspect_cli.errors import EnvironmentFault, GeometryError, Location, Problem
+from inspect_cli.errors import EnvironmentFault, GeometryError, InputError, Location, Problem
 from inspect_cli.spatial.arrays import Points
 
 
@@ -19,6 +19,17 @@ class ReadPoints:
 
     points: Points
     dropped: int
+
+
+def confined(root: Path, file: str) -> Path:
+    """The path of a file in the campaign folder; InputError where it leads out of it."""
+    path = (root / file).resolve()
+    if not path.is_relative_to(root.resolve()):
+        raise InputError(
+            f"'{file}' lies outside of the campaign folder {root}",
+            hint="copy the file into the folder and name it relative to the folder",
+        )
+    return path
 
 
 def refused(path: Path, what: str, hint: str) -> GeometryError:

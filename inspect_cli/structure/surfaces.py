@@ -7,13 +7,13 @@ from pathlib import Path
 
 import numpy as np
 
-from inspect_cli.errors import GeometryError, InputError, Location, Problem
+from inspect_cli.errors import GeometryError, Location, Problem
 from inspect_cli.schema.mission import CropBox, Mission, StructureSurface, SurfaceSource
 from inspect_cli.schema.plan import FitReport, PlannedSurface
 from inspect_cli.schema.primitives import displaced, displaced_points
 from inspect_cli.spatial.arrays import Points, Vector
 from inspect_cli.structure.clouds import read_cloud
-from inspect_cli.structure.files import ReadPoints, open3d
+from inspect_cli.structure.files import ReadPoints, confined, open3d
 from inspect_cli.structure.fit import Fit
 from inspect_cli.structure.fitting import fit_primitive
 from inspect_cli.structure.meshes import read_mesh
@@ -68,17 +68,6 @@ def believed_surface(entry: StructureSurface, root: Path, start_W: Vector) -> Pl
     return PlannedSurface(
         name=entry.name, shape=shape, source=f"{source}: {history}", fit=fit_report(fit)
     )
-
-
-def confined(root: Path, file: str) -> Path:
-    """The path of a file in the campaign folder; InputError where it leads out of it."""
-    path = (root / file).resolve()
-    if not path.is_relative_to(root.resolve()):
-        raise InputError(
-            f"'{file}' lies outside of the campaign folder {root}",
-            hint="copy the file into the folder and name it relative to the folder",
-        )
-    return path
 
 
 def fit_report(fit: Fit) -> FitReport:

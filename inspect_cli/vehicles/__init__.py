@@ -13,12 +13,12 @@ from inspect_cli.schema.vehicle import PlatformBase
 from inspect_cli.vehicles.kinds import Vehicle
 from inspect_cli.vehicles.tilt_rotor import TiltRotor
 
-VEHICLES: dict[str, Callable[[Any, str], Vehicle]] = {"tilt_rotor": TiltRotor}
+VEHICLES: dict[str, Callable[[Any], Vehicle]] = {"tilt_rotor": TiltRotor}
 
 
-def build_vehicle(platform: PlatformBase, profile: str) -> Vehicle:
-    """The vehicle of a platform file, flown with one of its impedance profiles."""
+def build_vehicle(platform: PlatformBase) -> Vehicle:
+    """The vehicle of a platform file."""
     if platform.kind not in VEHICLES:
         known = ", ".join(sorted(VEHICLES))
         raise InputError(f"no vehicle of kind '{platform.kind}'", hint=f"kinds are: {known}")
-    return VEHICLES[platform.kind](platform, profile)
+    return VEHICLES[platform.kind](platform)

@@ -43,7 +43,7 @@ class Tip:
 
 
 class Vehicle(Protocol):
-    """One vehicle, built from its platform file and the impedance profile it flies with."""
+    """One vehicle, built from its platform file."""
 
     @property
     def platform(self) -> PlatformBase:

@@ -19,7 +19,7 @@ from inspect_cli.estimation.error_state import ErrorStateFilter
 from inspect_cli.estimation.wrench_observer import WrenchObserver
 from inspect_cli.interfaces import Capabilities, at_origin
 from inspect_cli.records import Command, Estimate, Imu, Pose, Reference
-from inspect_cli.schema.vehicle import ImpedanceProfile, PlatformBase
+from inspect_cli.schema.vehicle import PlatformBase
 from inspect_cli.spatial.arrays import Vector
 
 
@@ -39,7 +39,6 @@ class ImpedanceStack:
         platform: PlatformBase,
         capabilities: Capabilities,
         body: RigidBody,
-        profile: ImpedanceProfile,
         allocation: Allocation,
     ) -> None:
         rates, control = platform.rates, platform.control
@@ -57,7 +56,7 @@ class ImpedanceStack:
         angles, n_arm = self.command.joint_angle, capabilities.lengths.get("n_arm", 0)
         self._arm_angle = angles[len(angles) - n_arm :]
         _, R_BT = capabilities.tool_pose(at_origin(self._arm_angle))
-        self._impedance = ImpedanceController(body, control, profile, R_BT)
+        self._impedance = ImpedanceController(body, control, R_BT, rates.control_hz)
         self._allocation = allocation
         self._flying = False
 

@@ -36,6 +36,7 @@ def target(index: int) -> Target:
         index=index,
         label=f"A{index + 1}",
         kind="contact",
+        impedance="contact_ndt",
         surface="wall",
         uv_m=(0.0, 0.0),
         p_WC=(2.0, float(index), 1.0),
@@ -71,6 +72,7 @@ def two_point_plan() -> Plan:
     return Plan(
         mission="scripted",
         platform="scripted",
+        impedance="contact_ndt",
         surfaces=(),
         start=posture(0.0, 0.2),
         targets=(target(0), target(1)),
@@ -93,6 +95,7 @@ class FakeGuidance:
     calls: list[tuple[str, float, float]] = field(default_factory=list)
     """(what, depth or height of the goal, speed)."""
     arrival_s: float = 0.0
+    impedances: list[str] = field(default_factory=list)
     contradicted: bool = False
     """What the next surfaces do to the plan."""
 
@@ -105,7 +108,13 @@ class FakeGuidance:
     def observe(self, t_s: float, surface: SurfaceEstimate) -> None:
         raise AssertionError("the loop hands surfaces to guidance, not the executive")
 
-    def contradicts(self, target: Target, surface: SurfaceEstimate) -> bool:
+    def take_impedance(self, name: str) -> None:
+        self.impedances.append(name)
+
+    def slide(self, t_s: float, target: Target) -> None:
+        self._ask(t_s, f"slide {target.label}", 0.0, 0.0)
+
+    def contradicts(self, t_s: float, target: Target, surface: SurfaceEstimate) -> bool:
         return self.contradicted
 
     def hold(self, t_s: float) -> None:

@@ -23,6 +23,7 @@ ROWS = {row.name: row for row in FAILSAFES}
 POSE, SURFACE = "pose measurements lost", "surface not seen by the depth camera"
 CONTRADICTED = "surface contradicts the plan"
 NEAR, PUSHED = "surface nearer than planned on the way", "unexpected force above 12 N"
+LOST = "surface lost while sliding"
 POSITION, ATTITUDE = "position error above 0.6 m", "attitude error above 0.6 rad"
 
 
@@ -35,7 +36,7 @@ def inputs(t_s: float = 10.0, **values: float) -> FlightInputs:
 
 
 def test_the_table_names_what_these_tests_know() -> None:
-    assert set(ROWS) == {POSE, SURFACE, CONTRADICTED, NEAR, PUSHED, POSITION, ATTITUDE}
+    assert set(ROWS) == {POSE, SURFACE, LOST, CONTRADICTED, NEAR, PUSHED, POSITION, ATTITUDE}
 
 
 @pytest.mark.parametrize(
@@ -43,6 +44,7 @@ def test_the_table_names_what_these_tests_know() -> None:
     [
         (POSE, "pose_heard_s", 9.76, 9.74),
         (SURFACE, "surface_seen_s", 9.51, 9.49),
+        (LOST, "surface_seen_s", 9.51, 9.49),
         (CONTRADICTED, "surface_agreed_s", 9.51, 9.49),
         (NEAR, "surface_distance_m", 0.01, -0.01),
         (PUSHED, "force_n", 11.9, 12.1),
@@ -80,6 +82,7 @@ def test_each_row_watches_its_modes(mode: Mode) -> None:
         everything_bad.t_s = 10.0
     expected = {POSE, POSITION, ATTITUDE} if mode in FLYING else set()
     expected |= {SURFACE, CONTRADICTED} if mode in NEAR_SURFACE else set()
+    expected |= {LOST} if mode == Mode.SLIDE else set()
     expected |= {NEAR} if mode == Mode.TRANSIT else set()
     expected |= {PUSHED} if mode in (Mode.TRANSIT, Mode.APPROACH) else set()
     assert due == expected

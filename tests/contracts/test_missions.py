@@ -15,6 +15,7 @@ from inspect_cli.schema.json_schema import committed_file
 from inspect_cli.schema.loading import load_mission
 from inspect_cli.schema.plan import Plan
 from inspect_cli.schema.strict_yaml import read_yaml
+from inspect_cli.schema.tasks import Task
 
 LEDGER_ROW = re.compile(r"[A-F][0-9]{1,2}(\.[a-z0-9_]+)?")
 """A paper's letter, the number of its experiment, and which of its figures."""
@@ -42,11 +43,19 @@ def test_its_acceptance_asks_for_what_is_measured(mission_file: Path, root: Path
             assert entry.over.mission in names
 
 
+def targets_of(task: Task) -> int:
+    """How many targets a task comes to; a drawing at least one each time it is traced."""
+    if task.contact_grid is not None:
+        return task.contact_grid.rows * task.contact_grid.columns
+    if task.contact_points is not None:
+        return len(task.contact_points.at_m)
+    return task.trace.repeat if task.trace is not None else 1
+
+
 def test_it_plans(mission_file: Path) -> None:
     loaded = load_mission(mission_file)
     plan = plan_loaded(loaded, vehicle_of(loaded))
-    contacts = [task.contact for task in loaded.mission.tasks]
-    asked = sum(len(c.at_m) if hasattr(c, "at_m") else c.rows * c.columns for c in contacts)
+    asked = sum(targets_of(task) for task in loaded.mission.tasks)
     assert len(plan.targets) == asked
     assert [target.index for target in plan.targets] == list(range(asked))
     assert plan.duration_s == pytest.approx(sum(leg.duration_s for leg in plan.legs))

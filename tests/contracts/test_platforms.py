@@ -39,11 +39,12 @@ def test_it_comes_back_from_json(platform_file: Path) -> None:
 
 def test_it_flies_with_each_of_its_profiles(platform_file: Path) -> None:
     platform = load_platform(platform_file)
+    vehicle = build_vehicle(platform)
+    assert vehicle.platform is platform
+    assert vehicle.capabilities.impedances == tuple(platform.control.profiles)
     for profile in platform.control.profiles:
-        vehicle = build_vehicle(platform, profile)
-        assert vehicle.platform is platform
         # Pressing deeper presses harder, and not pressing not at all.
-        forces = [vehicle.capabilities.press_force(depth) for depth in (0.0, 0.05, 0.10)]
+        forces = [vehicle.capabilities.press_force(d, profile) for d in (0.0, 0.05, 0.10)]
         assert forces[0] == 0.0
         assert forces[2] == pytest.approx(2.0 * forces[1])
         assert forces[1] > 0.0
@@ -62,6 +63,6 @@ def test_a_tilt_range_in_degrees_is_the_joints_range(root: Path) -> None:
     assert isinstance(platform, TiltRotorPlatform)
     unit = platform.unit.model_copy(update={"range_deg": 30.0})
     limited = platform.model_copy(update={"unit": unit})
-    model = build_vehicle(limited, "contact_ndt").nominal_spec().compile()
+    model = build_vehicle(limited).nominal_spec().compile()
     assert model.jnt_limited[1:].all()
     assert np.allclose(model.jnt_range[1:], np.radians([-30.0, 30.0]))

@@ -90,7 +90,8 @@ class Loop:
         self.reference = Reference.create({**LENGTHS, "n_arm": 0})
         self.command = Command.create(LENGTHS)
         self.estimate.q_WB[:] = self.reference.q_WB[:] = [1.0, 0.0, 0.0, 0.0]
-        self.controller = ImpedanceController(body, control, profile, R_BT)
+        only = control.model_copy(update={"profiles": {"only": profile}})
+        self.controller = ImpedanceController(body, only, R_BT, 250)
 
     def wrench(self) -> Array:
         self.controller.update(self.estimate, self.reference, self.command)

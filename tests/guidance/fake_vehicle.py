@@ -23,6 +23,7 @@ class FakeVehicle:
     max_speed_mps: float = 1.0
     max_acceleration_mps2: float = 1.0
     max_angular_rate_radps: float = 0.7
+    impedances: tuple[str, ...] = ("contact_ndt",)
     standing_height_m: float = 0.2
     reach: bool = True
 
@@ -46,7 +47,7 @@ class FakeVehicle:
     def margins(self, posture, wrench_tool_W):
         return Margins(1.0, np.inf)
 
-    def press_force(self, press_m):
+    def press_force(self, press_m, impedance):
         return 18.0 * press_m
 
     def hover_power_w(self, posture):
@@ -78,6 +79,7 @@ def target_at(vehicle, p_WC, n_W, R_WT, standoff_m=0.25, press_m=0.1) -> Target:
         index=0,
         label="A1",
         kind="contact",
+        impedance="contact_ndt",
         surface="wall",
         uv_m=(0.0, 0.0),
         p_WC=tuple(p_WC.tolist()),

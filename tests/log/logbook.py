@@ -120,6 +120,7 @@ def plan() -> Plan:
         index=0,
         label="wall 1",
         kind="contact",
+        impedance="contact_ndt",
         surface="wall",
         uv_m=(0.0, 0.0),
         p_WC=(2.0, 0.0, 1.5),
@@ -139,6 +140,7 @@ def plan() -> Plan:
     return Plan(
         mission="wall",
         platform="tilt_rotor_hexarotor",
+        impedance="contact_ndt",
         surfaces=(
             PlannedSurface(name="wall", shape=WALL, source="given"),
             PlannedSurface(name="column", shape=COLUMN, source="given"),

@@ -257,6 +257,7 @@ def _plan() -> Plan:
             "index": k,
             "label": f"wall {k + 1}",
             "kind": "contact",
+            "impedance": "contact_ndt",
             "surface": "wall",
             "uv_m": [point[1], 0.0],
             "p_WC": list(point),
@@ -278,6 +279,7 @@ def _plan() -> Plan:
     data = {
         "mission": "nine-points",
         "platform": "hexarotor",
+        "impedance": "contact_ndt",
         "surfaces": [],
         "start": start,
         "targets": targets,

@@ -337,7 +337,8 @@ def test_points_carry_readings_and_truth(flight: SyntheticFlight) -> None:
 
 
 def test_saturation_energy_and_thrust(flight: SyntheticFlight) -> None:
-    flying = np.isin(flight.rows(Reference)["mode"], [1, 2, 3, 4, 5, 6])
+    mode = flight.rows(Reference)["mode"]
+    flying = (mode >= Mode.TAKEOFF) & (mode <= Mode.LAND)
     rows = np.flatnonzero(flying)
     flight.rows(Command)["saturated"][rows[: len(rows) // 4]] = 1.0
     flight.rows(State)["rotor_thrust"][77, 5] = 9.5

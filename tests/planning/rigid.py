@@ -35,6 +35,7 @@ class RigidVehicle:
     max_speed_mps: float = 1.0
     max_acceleration_mps2: float = 1.0
     max_angular_rate_radps: float = 1.0
+    impedances: tuple[str, ...] = ("contact_ndt",)
     standing_height_m: float = 0.25
 
     @property
@@ -72,7 +73,7 @@ class RigidVehicle:
         tilt = np.arccos(np.clip(z_B @ needed / np.linalg.norm(needed), -1.0, 1.0))
         return Margins(thrust, np.radians(self.max_tilt_deg) - tilt)
 
-    def press_force(self, press_m):
+    def press_force(self, press_m, impedance):
         return 18.0 * press_m
 
     def hover_power_w(self, posture):
@@ -90,6 +91,7 @@ class ArmVehicle:
     max_speed_mps: float = 1.0
     max_acceleration_mps2: float = 1.0
     max_angular_rate_radps: float = 1.0
+    impedances: tuple[str, ...] = ("contact_ndt",)
     standing_height_m: float = 0.25
 
     @property
@@ -125,7 +127,7 @@ class ArmVehicle:
     def margins(self, posture, wrench_tool_W):
         return Margins(10.0 - 0.1 * float(np.linalg.norm(wrench_tool_W)), np.inf)
 
-    def press_force(self, press_m):
+    def press_force(self, press_m, impedance):
         return 10.0 * press_m
 
     def hover_power_w(self, posture):

@@ -12,7 +12,7 @@ from inspect_cli.schema.primitives import primitive_of
 
 
 def touch_points(task, shape, first=1):
-    return points_of_task(Task.model_validate(task), primitive_of(shape), first)
+    return points_of_task(Task.model_validate(task), primitive_of(shape), first, "contact_ndt")
 
 
 def test_grid_on_a_wall_runs_left_to_right_and_downwards():

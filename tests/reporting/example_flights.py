@@ -342,6 +342,7 @@ def _plan(
             "index": k,
             "label": words.get("label", str(k + 1)),
             "kind": "contact",
+            "impedance": "contact_ndt",
             "surface": words["surface"],
             "uv_m": [u, v],
             "p_WC": world(u, v).tolist(),
@@ -390,6 +391,7 @@ def _plan(
     data = {
         "mission": "example-survey",
         "platform": "tilt_rotor_hexarotor",
+        "impedance": "contact_ndt",
         "surfaces": [surface],
         "start": _posture(HOME),
         "targets": targets,

@@ -43,6 +43,7 @@ def press(
     stack.start(pose)
     reference.p_WB[:] = touch + depth_m * z_T - p_BT
     reference.q_WB[0] = 1.0
+    reference.impedance = float(vehicle.capabilities.impedances.index("contact_ndt"))
     peak = 0.0
     for tick in range(round(duration_s / (CONTROL_STEPS * DT))):
         state = plant.observe(tick * CONTROL_STEPS * DT)

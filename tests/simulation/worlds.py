@@ -35,7 +35,7 @@ def vehicle_at(pitch_deg: float = 90.0, **tool: float) -> Vehicle:
     assert isinstance(platform, TiltRotorPlatform)
     tip = {"tip_stiffness_npm": 3000.0, "tip_damping_ratio": 0.8}
     changed = platform.tool.model_copy(update={"pitch_deg": pitch_deg, **tip, **tool})
-    return build_vehicle(platform.model_copy(update={"tool": changed}), "contact_ndt")
+    return build_vehicle(platform.model_copy(update={"tool": changed}))
 
 
 def structure_of(shapes: Sequence[Shape], friction: float = 0.5) -> StructureTruth:

@@ -22,7 +22,7 @@ PLATFORMS = sorted((Path(__file__).resolve().parents[2] / "platforms").glob("*.y
 @pytest.fixture(params=PLATFORMS, ids=lambda path: path.stem, scope="module")
 def vehicle(request: pytest.FixtureRequest) -> Vehicle:
     platform = load_platform(request.param)
-    return build_vehicle(platform, sorted(platform.control.profiles)[0])
+    return build_vehicle(platform)
 
 
 @pytest.fixture(scope="module")
@@ -130,4 +130,4 @@ def test_the_stack_starts_idle_and_hovers_when_it_flies(vehicle: Vehicle) -> Non
 def test_a_kind_that_nobody_knows_is_refused() -> None:
     platform = load_platform(PLATFORMS[0]).model_copy(update={"kind": "balloon"})
     with pytest.raises(InputError, match="balloon"):
-        build_vehicle(platform, "contact_ndt")
+        build_vehicle(platform)

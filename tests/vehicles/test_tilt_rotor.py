@@ -73,10 +73,10 @@ def test_the_arms_angle_counts_from_straight_down(
 
 @pytest.mark.parametrize("pitch_deg", [90.0, 150.0])
 def test_press_force_of_the_contact_profile(pitched: Pitched, pitch_deg: float) -> None:
-    capabilities = build_vehicle(pitched(pitch_deg), "contact_ndt").capabilities
+    capabilities = build_vehicle(pitched(pitch_deg)).capabilities
     # The stiffness is the same along all axes: 0.25 · 72 N/m · 0.10 m whatever the arm's angle.
-    assert capabilities.press_force(0.10) == pytest.approx(1.8, rel=1e-9)
-    assert capabilities.press_force(0.05) == pytest.approx(0.9, rel=1e-9)
+    assert capabilities.press_force(0.10, "contact_ndt") == pytest.approx(1.8, rel=1e-9)
+    assert capabilities.press_force(0.05, "contact_ndt") == pytest.approx(0.9, rel=1e-9)
 
 
 class Statics:
@@ -128,8 +128,8 @@ def test_margins_are_what_statics_leaves(pitched: Pitched, pitch_deg: float) -> 
     platform = pitched(pitch_deg)
     unit = platform.unit.model_copy(update={"range_deg": 170.0})
     limited = platform.model_copy(update={"unit": unit})
-    free = build_vehicle(platform, "contact_ndt").capabilities
-    stopped = build_vehicle(limited, "contact_ndt").capabilities
+    free = build_vehicle(platform).capabilities
+    stopped = build_vehicle(limited).capabilities
     statics, rng = Statics(platform), np.random.default_rng(4)
     for posture in postures(30):
         wrench_W = rng.normal(size=6) * [5.0, 5.0, 5.0, 0.3, 0.3, 0.3]
@@ -142,7 +142,7 @@ def test_margins_are_what_statics_leaves(pitched: Pitched, pitch_deg: float) -> 
 
 
 def test_too_much_is_not_feasible(pitched: Pitched) -> None:
-    capabilities = build_vehicle(pitched(90.0), "contact_ndt").capabilities
+    capabilities = build_vehicle(pitched(90.0)).capabilities
     level = Posture(np.zeros(3), np.array([1.0, 0.0, 0.0, 0.0]))
     assert capabilities.margins(level, np.zeros(6)).feasible
     # Six groups of 20 N cannot push 120 N forward beside carrying the weight.
@@ -152,7 +152,7 @@ def test_too_much_is_not_feasible(pitched: Pitched) -> None:
 
 def test_hover_power_by_momentum_theory(pitched: Pitched) -> None:
     platform = pitched(90.0)
-    capabilities, statics = build_vehicle(platform, "contact_ndt").capabilities, Statics(platform)
+    capabilities, statics = build_vehicle(platform).capabilities, Statics(platform)
     for posture in postures(5):
         rotor = 0.5 * np.repeat(statics.groups(posture, np.zeros(6))[0], 2)
         induced_speed = np.sqrt(rotor / (2.0 * 1.225 * np.pi * platform.rotor.radius_m**2))
@@ -164,7 +164,7 @@ def test_hover_power_by_momentum_theory(pitched: Pitched) -> None:
 def test_the_spheres_cover_core_rotors_and_arm_but_not_the_tip(pitched: Pitched) -> None:
     """Up to the corners of discs and hull, which stand out by less than the least clearance."""
     platform = pitched(150.0)
-    capabilities = build_vehicle(platform, "contact_ndt").capabilities
+    capabilities = build_vehicle(platform).capabilities
     posture = postures(1)[0]
     spheres = capabilities.collision_spheres(posture)
     R = Rotation.from_quat(np.roll(posture.q_WB, -1)).as_matrix()

@@ -18,9 +18,8 @@ from inspect_cli.vehicles.tilt_rotor.model import build_spec, group_kappa_m
 class TiltRotor:
     """A tilt-rotor vehicle, built from its platform file."""
 
-    def __init__(self, platform: TiltRotorPlatform, profile: str) -> None:
+    def __init__(self, platform: TiltRotorPlatform) -> None:
         self.platform = platform
-        self._profile = platform.control.profiles[profile]
         n = len(platform.groups)
         rotor, unit, tool = platform.rotor, platform.unit, platform.tool
         self.actuators = Actuators(
@@ -31,9 +30,7 @@ class TiltRotor:
         )
         self.tip = Tip(tool.tip_radius_m, tool.tip_stiffness_npm, tool.tip_damping_ratio)
         self._body = nominal_body(build_spec(platform))
-        self.capabilities = TiltRotorCapabilities(
-            platform, self._profile, self._body, self._allocation()
-        )
+        self.capabilities = TiltRotorCapabilities(platform, self._body, self._allocation())
 
     def nominal_spec(self) -> mujoco.MjSpec:
         """The nominal MuJoCo model, in free space."""
@@ -41,9 +38,7 @@ class TiltRotor:
 
     def flight_stack(self) -> FlightStack:
         """Error-state filter, momentum observer, selective impedance, static allocation."""
-        return ImpedanceStack(
-            self.platform, self.capabilities, self._body, self._profile, self._allocation()
-        )
+        return ImpedanceStack(self.platform, self.capabilities, self._body, self._allocation())
 
     def _allocation(self) -> TiltAllocation:
         azimuth = np.radians([group.azimuth_deg for group in self.platform.groups])

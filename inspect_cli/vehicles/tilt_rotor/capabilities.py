@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import numpy as np
 
-from inspect_cli.control.impedance import RigidBody, steady_contact_force
+from inspect_cli.control.impedance import RigidBody, steady_press_force
 from inspect_cli.control.tilt_allocation import TiltAllocation
 from inspect_cli.interfaces import Margins, Posture
 from inspect_cli.records import Lengths
-from inspect_cli.schema.vehicle import ImpedanceProfile, TiltRotorPlatform
+from inspect_cli.schema.vehicle import TiltRotorPlatform
 from inspect_cli.spatial.arrays import Matrix, Points, Vector
 from inspect_cli.spatial.constants import AIR_DENSITY_KGPM3, GRAVITY_MPS2
 from inspect_cli.spatial.rotations import matrix_to_quaternion, quaternion_to_matrix
@@ -25,12 +25,10 @@ class TiltRotorCapabilities:
     def __init__(
         self,
         platform: TiltRotorPlatform,
-        profile: ImpedanceProfile,
         body: RigidBody,
         allocation: TiltAllocation,
     ) -> None:
         self._platform = platform
-        self._profile = profile
         self._body = body
         self._allocation = allocation
         self._p_BT, self._R_BT = tool_transform(platform)
@@ -41,6 +39,7 @@ class TiltRotorCapabilities:
         self.max_acceleration_mps2 = platform.limits.acceleration_mps2
         self.max_angular_rate_radps = platform.limits.angular_rate_radps
         self.standing_height_m = platform.core.gear_height_m
+        self.impedances = tuple(platform.control.profiles)
 
     def tool_pose(self, posture: Posture) -> tuple[Vector, Matrix]:
         """(p_WT, R_WT) of a posture."""
@@ -73,12 +72,10 @@ class TiltRotorCapabilities:
         tilt = float(np.abs(self._allocation.group_tilts(needed)).max())
         return Margins(thrust, float(np.radians(unit.range_deg)) - tilt)
 
-    def press_force(self, press_m: float) -> float:
+    def press_force(self, press_m: float, impedance: str) -> float:
         """Steady normal force, N, with the set-point ``press_m`` behind the surface."""
-        stiffness = np.array(self._platform.control.stiffness_npm)
-        z_T = self._R_BT[:, 2]
-        force = steady_contact_force(self._profile, stiffness, self._R_BT, -press_m * z_T)
-        return float(-force @ z_T)
+        control = self._platform.control
+        return steady_press_force(control, control.profiles[impedance], self._R_BT, press_m)
 
     def hover_power_w(self, posture: Posture) -> float:
         """Electrical power at rest: ideal induced power over figure of merit, plus avionics.

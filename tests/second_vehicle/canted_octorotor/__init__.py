@@ -18,9 +18,8 @@ from inspect_cli.vehicles.stack import ImpedanceStack
 class CantedOctorotor:
     """One vehicle, built from its platform file."""
 
-    def __init__(self, platform: CantedOctorotorPlatform, profile: str) -> None:
+    def __init__(self, platform: CantedOctorotorPlatform) -> None:
         self.platform = platform
-        self._profile = platform.control.profiles[profile]
         rotors, wrist = platform.rotors, platform.wrist
         self.actuators = Actuators(
             time_up_s=np.full(N_ROTORS, rotors.time_up_s),
@@ -30,13 +29,11 @@ class CantedOctorotor:
         )
         self.tip = Tip(wrist.tip_radius_m, wrist.tip_stiffness_npm, wrist.tip_damping_ratio)
         self._body = nominal_body(build_spec(platform))
-        self.capabilities = CantedOctorotorCapabilities(platform, self._profile, self._body)
+        self.capabilities = CantedOctorotorCapabilities(platform, self._body)
 
     def nominal_spec(self) -> mujoco.MjSpec:
         return build_spec(self.platform)
 
     def flight_stack(self) -> FlightStack:
         allocation = FixedAllocation(self.platform.rotors)
-        return ImpedanceStack(
-            self.platform, self.capabilities, self._body, self._profile, allocation
-        )
+        return ImpedanceStack(self.platform, self.capabilities, self._body, allocation)

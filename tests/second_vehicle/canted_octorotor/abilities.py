@@ -11,9 +11,8 @@ from canted_octorotor.file_model import (
     tool_in_body,
 )
 from canted_octorotor.fixed_allocation import FixedAllocation
-from inspect_cli.control.impedance import GRAVITY_MPS2, RigidBody, steady_contact_force
+from inspect_cli.control.impedance import GRAVITY_MPS2, RigidBody, steady_press_force
 from inspect_cli.interfaces import Margins, Posture
-from inspect_cli.schema.vehicle import ImpedanceProfile
 from inspect_cli.spatial.arrays import Matrix, Points, Vector
 from inspect_cli.spatial.rotations import matrix_to_quaternion, quaternion_to_matrix
 
@@ -25,11 +24,8 @@ LEVEL = 1e-6
 class CantedOctorotorCapabilities:
     """The body stays level: heading and position are the body's, the pitch is the wrist's."""
 
-    def __init__(
-        self, platform: CantedOctorotorPlatform, profile: ImpedanceProfile, body: RigidBody
-    ) -> None:
+    def __init__(self, platform: CantedOctorotorPlatform, body: RigidBody) -> None:
         self._platform = platform
-        self._profile = profile
         self._body = body
         self._allocation = FixedAllocation(platform.rotors)
         self.lengths = {"n_rotors": N_ROTORS, "n_joints": 1, "n_arm": 1}
@@ -37,6 +33,7 @@ class CantedOctorotorCapabilities:
         self.max_acceleration_mps2 = platform.limits.acceleration_mps2
         self.max_angular_rate_radps = platform.limits.angular_rate_radps
         self.standing_height_m = platform.core.gear_height_m
+        self.impedances = tuple(platform.control.profiles)
 
     def tool_pose(self, posture: Posture) -> tuple[Vector, Matrix]:
         R_WB = quaternion_to_matrix(posture.q_WB)
@@ -80,11 +77,10 @@ class CantedOctorotorCapabilities:
         reach = np.radians(self._platform.wrist.range_deg)
         return Margins(float(left.min()), float(reach - abs(_angle(posture))))
 
-    def press_force(self, press_m: float) -> float:
+    def press_force(self, press_m: float, impedance: str) -> float:
         _, R_BT = tool_in_body(self._platform.wrist, 0.0)
-        stiffness, z_T = np.array(self._platform.control.stiffness_npm), R_BT[:, 2]
-        force = steady_contact_force(self._profile, stiffness, R_BT, -press_m * z_T)
-        return float(-force @ z_T)
+        control = self._platform.control
+        return steady_press_force(control, control.profiles[impedance], R_BT, press_m)
 
     def hover_power_w(self, posture: Posture) -> float:
         R_WB = quaternion_to_matrix(posture.q_WB)

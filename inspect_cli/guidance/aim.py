@@ -1,0 +1,93 @@
+"""Where the tool is aimed: the surface at a target as it is believed, and the tool's turn to it."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from inspect_cli.guidance.orientation import contact_orientation, heading_orientation
+from inspect_cli.records import SurfaceEstimate
+from inspect_cli.schema.plan import Target
+from inspect_cli.spatial.arrays import Matrix, Vector
+from inspect_cli.spatial.rotations import quaternion_to_matrix
+
+MAX_TILT_RAD = float(np.radians(30.0))
+MAX_SHIFT_M = 0.30
+"""A plane turned or shifted by more than these from the believed one is taken for another thing."""
+MAX_FIRST_TILT_RAD = float(np.radians(60.0))
+"""A surface that nobody described may be turned by this much when it is first seen."""
+ARRIVAL_M = 0.005
+ARRIVAL_RAD = float(np.radians(2.0))
+"""Corrections smaller than these do not put off the arrival."""
+
+
+@dataclass(frozen=True)
+class Aim:
+    """A contact point (3,) m with its outward normal (3,) in W, and R_WT (3, 3) with z_T = −n.
+
+    ``level`` says whether y_T is kept level. Near the vertical a small error of n̂ would turn a
+    level y axis by far: where a plausible correction could bring n̂ there, the heading is kept.
+    ``found`` is False as long as nothing is known of the surface but the direction to look in.
+    """
+
+    p_WC: Vector
+    n_W: Vector
+    R_WT: Matrix
+    level: bool
+    found: bool = True
+
+    @classmethod
+    def planned(cls, target: Target) -> Aim:
+        """What the plan believes."""
+        R_WT = quaternion_to_matrix(np.array(target.q_WT))
+        n_W = np.array(target.n_W)
+        return cls(np.array(target.p_WC), n_W, R_WT, _is_level(n_W), target.following is None)
+
+    @classmethod
+    def of_set_point(cls, p_WT: Vector, R_WT: Matrix, depth_m: float, level: bool) -> Aim:
+        """The aim of a tool whose set-point lies ``depth_m`` behind the surface."""
+        n_W = -R_WT[:, 2]
+        return cls(p_WT + depth_m * n_W, n_W, R_WT, level)
+
+    def seen(self, estimate: SurfaceEstimate) -> Aim | None:
+        """The contact point moved along n̂ onto the seen plane; None if that is implausible.
+
+        A surface that was not found yet is found where the tool's axis meets it.
+        """
+        n_W = estimate.n_W.copy()
+        if not self.found:
+            return self._first(n_W, estimate.p_WC.copy())
+        shift = float(n_W @ (estimate.p_WC - self.p_WC))
+        # Written so that a NaN anywhere makes it implausible.
+        if not (n_W @ self.n_W >= np.cos(MAX_TILT_RAD) and abs(shift) <= MAX_SHIFT_M):
+            return None
+        return self.at(self.p_WC + shift * n_W, n_W)
+
+    def at(self, p_WC: Vector, n_W: Vector) -> Aim:
+        """The aim at another point and normal, with the tool turned by the same rule."""
+        return Aim(p_WC, n_W, _orientation(n_W, self.R_WT[:, 1], self.level), self.level)
+
+    def set_point(self, depth_m: float) -> Vector:
+        """p_WT (3,) with the tip ``depth_m`` behind the surface."""
+        point: Vector = self.p_WC - depth_m * self.n_W
+        return point
+
+    def differs(self, other: Aim, depth_m: float) -> bool:
+        """Whether going from the other's set-point to this one's is worth waiting for."""
+        way = np.linalg.norm(self.set_point(depth_m) - other.set_point(depth_m))
+        return bool(way > ARRIVAL_M or self.n_W @ other.n_W < np.cos(ARRIVAL_RAD))
+
+    def _first(self, n_W: Vector, p_WC: Vector) -> Aim | None:
+        if not n_W @ self.n_W >= np.cos(MAX_FIRST_TILT_RAD):
+            return None
+        level = _is_level(n_W)
+        return Aim(p_WC, n_W, _orientation(n_W, self.R_WT[:, 1], level), level)
+
+
+def _is_level(n_W: Vector) -> bool:
+    return bool(abs(n_W[2]) <= np.cos(MAX_TILT_RAD))
+
+
+def _orientation(n_W: Vector, hint_W: Vector, level: bool) -> Matrix:
+    return contact_orientation(n_W, hint_W) if level else heading_orientation(n_W, hint_W)
