@@ -125,7 +125,7 @@ def plan(
     if as_json:
         sys.stdout.write(outcome.plan.model_dump_json(by_alias=True) + "\n")
     else:
-        terminal.print_plan(outcome.plan, outcome.file)
+        terminal.print_any_plan(outcome.plan, outcome.file)
     return EXIT_GOOD
 
 

@@ -48,6 +48,7 @@ def fly_into(
     Raises:
         FlightInterrupted: the user stopped it; the log holds the part that was flown.
     """
+    folder.mkdir(parents=True, exist_ok=True)
     ending = _fly(folder, vehicle, plan, loaded, seed, progress)
     write_model(folder / "plan.json", plan)
     result = evaluate(read_log(folder / LOG_NAME))

@@ -79,17 +79,12 @@ class Surveyor:
         """
         coverage = self.coverage
         edge_m = 0.5 * coverage.pitch_m if coverage.edge_m is None else coverage.edge_m
+        self._check_count()
         places = lattice(self.prim, coverage.pitch_m, edge_m, coverage.offset_m)
         if not places:
             raise InfeasibleError(
                 f"coverage: no point of '{coverage.on}' is {edge_m:g} m from its edge",
                 hint="give a smaller edge_m, or a larger surface",
-            )
-        if len(places) > MAX_POINTS:
-            raise InfeasibleError(
-                f"coverage: '{coverage.on}' holds {len(places)} points at a pitch of "
-                f"{coverage.pitch_m:g} m; at most {MAX_POINTS} in one mission",
-                hint="give a larger pitch_m",
             )
         batch = self.batch([(str(k), place) for k, place in enumerate(places, 1)])
         if not batch.plans:
@@ -127,10 +122,20 @@ class Surveyor:
         )
         stages = split(costs, self.budget_wh * JOULE_PER_WH)
         plans = [
-            self._trips.plan(stage.start, ordered[stage.first : stage.last + 1])
-            for stage in stages
+            self._trips.plan(stage.start, ordered[stage.first : stage.last + 1]) for stage in stages
         ]
         return Batch(tuple(plans), tuple(skipped), self._tour_m(ordered))
+
+    def _check_count(self) -> None:
+        """Refuse a pitch that is too small before a list of its points is made."""
+        coverage = self.coverage
+        count = float(np.prod(2.0 * self.prim["half_size"][0] / coverage.pitch_m))
+        if count > MAX_POINTS:
+            raise InfeasibleError(
+                f"coverage: '{coverage.on}' holds some {count:.0f} points at a pitch of "
+                f"{coverage.pitch_m:g} m; at most {MAX_POINTS} in one mission",
+                hint="give a larger pitch_m",
+            )
 
     def _made_bases(self, cable_m: float, min_force_n: float) -> list[Base]:
         starts = self.coverage.starts or (self._mission.start,)
@@ -150,7 +155,9 @@ class Surveyor:
         reasons = [*_faults(point), *self._kept_out(point), *self._hidden(point)]
         if reasons:
             return reasons
-        nearest = min(self._bases, key=lambda base: cable_span_m(point, base.situation.limits.clamp_W))
+        nearest = min(
+            self._bases, key=lambda base: cable_span_m(point, base.situation.limits.clamp_W)
+        )
         capabilities, scene = self._capabilities, self._scene
         for touch in touches(capabilities, point, self._bases[0].hover):
             found = assess(capabilities, scene, point, touch, nearest.situation.limits)

@@ -78,16 +78,17 @@ def report_html(log: RunLog, result: Result, plan: Plan) -> str:
     timeline = timeline_of(rows_of(log, Reference), plan)
     title = log.mission().title or result.mission
     sections = [
-        Section("summary", "Summary", _summary(log, result, points)),
-        Section("survey", "Corrosion survey", _survey(log, plan, points)),
+        Section("summary", "Summary", summary(log, result, points)),
+        Section("survey", "Corrosion survey", survey_content(log, plan, points)),
         Section("flight", "Flight", _flight(log, result, plan, points, timeline)),
         Section("structure", "Structure", fits_table(plan)),
         Section("provenance", "Provenance", provenance(log, result, plan)),
     ]
-    return page(f"{title} – inspection report", _header(log, result, title), sections)
+    return page(f"{title} – inspection report", header(log, result, title), sections)
 
 
-def _header(log: RunLog, result: Result, title: str) -> Markup:
+def header(log: RunLog, result: Result, title: str) -> Markup:
+    """What was flown, with what, and how it ended."""
     mission, platform = log.mission(), log.platform()
     description = mission.description
     facts = [
@@ -105,7 +106,8 @@ def _header(log: RunLog, result: Result, title: str) -> Markup:
     )
 
 
-def _summary(log: RunLog, result: Result, points: Sequence[ReadPoint]) -> Markup:
+def summary(log: RunLog, result: Result, points: Sequence[ReadPoint]) -> Markup:
+    """Warnings, finding, key figures, checks, caveats."""
     checks = (
         checks_table(result.checks)
         if result.checks
@@ -121,12 +123,13 @@ def _summary(log: RunLog, result: Result, points: Sequence[ReadPoint]) -> Markup
     )
 
 
-def _survey(log: RunLog, plan: Plan, points: Sequence[ReadPoint]) -> Markup:
+def survey_content(log: RunLog, plan: Plan, points: Sequence[ReadPoint]) -> Markup:
+    """The readings: map, tables, diagrams, and how they were taken."""
     if not points:
         return element("p", "The plan asks for no reading.")
     diagrams = [cumulative_figure(points), resistivity_figure(points)]
     return joined(
-        _drawn(map_figures(points, plan)),
+        drawn(map_figures(points, plan)),
         points_table(points),
         truth_table(points),
         classes_table(points),
@@ -134,7 +137,7 @@ def _survey(log: RunLog, plan: Plan, points: Sequence[ReadPoint]) -> Markup:
         element(
             "p", element("strong", "Rule of the combined verdict. "), COMBINED_RULE, class_="rule"
         ),
-        _drawn((d for d in diagrams if d is not None), side_by_side=True),
+        drawn((d for d in diagrams if d is not None), side_by_side=True),
         element("h3", "How the readings were taken"),
         definitions(method(log, plan)),
     )
@@ -151,20 +154,20 @@ def _flight(
     forces = [*force_figures(log, plan, timeline)]
     return joined(
         element("h3", "Pose tracking"),
-        _drawn(tracking_figures(log, timeline), side_by_side=True),
+        drawn(tracking_figures(log, timeline), side_by_side=True),
         metrics_table("Errors of tracking and estimation.", result, ("tracking", "estimation")),
         element("h3", "Contact force and external wrench"),
-        _drawn(forces[:1]),
-        _drawn(forces[1:], side_by_side=True),
+        drawn(forces[:1]),
+        drawn(forces[1:], side_by_side=True),
         metrics_table("Contact and readings.", result, ("contact", "half_cell")),
         element("h3", "Surface seen by the depth camera"),
-        _drawn(surface_figures(log, timeline)),
+        drawn(surface_figures(log, timeline)),
         element("h3", "Actuators"),
-        _drawn(actuator_figures(log, timeline)),
+        drawn(actuator_figures(log, timeline)),
         element("h3", "Path in space"),
-        _drawn([scene_figure(log, plan, points)]),
+        drawn([scene_figure(log, plan, points)]),
         element("h3", "Modes and events"),
-        _drawn([modes] if modes else []),
+        drawn([modes] if modes else []),
         events_table(log),
         metrics_table("Other metrics.", result, _other_groups(result)),
     )
@@ -177,7 +180,8 @@ def _other_groups(result: Result) -> list[str]:
     return [g for name in result.metrics if (g := name.split(".")[0]) not in SHOWN_GROUPS]
 
 
-def _drawn(figures: Iterable[Figure], *, side_by_side: bool = False) -> Markup:
+def drawn(figures: Iterable[Figure], *, side_by_side: bool = False) -> Markup:
+    """Figures one after the other, or two in a row where there is room."""
     shown = joined(*(figure.html() for figure in figures))
     if side_by_side and shown:
         return element("div", shown, class_="pair")

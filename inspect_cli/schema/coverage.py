@@ -85,7 +85,9 @@ class CoveragePlan(Strict):
                 for target in plan.targets
             ]
             legs += [
-                leg if leg.target is None else leg.model_copy(update={"target": leg.target + before})
+                leg
+                if leg.target is None
+                else leg.model_copy(update={"target": leg.target + before})
                 for leg in plan.legs
             ]
             before += len(plan.targets)

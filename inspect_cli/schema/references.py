@@ -20,7 +20,12 @@ FILES = (
 )
 """Where a mission names files; their paths are relative to the file that they stand in."""
 
-SURFACES = ("tasks.*.contact_grid.on", "tasks.*.contact_points.on", "tasks.*.trace.on")
+SURFACES = (
+    "tasks.*.contact_grid.on",
+    "tasks.*.contact_points.on",
+    "tasks.*.coverage.on",
+    "tasks.*.trace.on",
+)
 """Where a mission names one of its surfaces."""
 
 
