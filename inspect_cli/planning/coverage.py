@@ -1,8 +1,8 @@
 """Covering a surface: its points, those left out and why, their order, and the sorties.
 
-Each point is turned towards as from the first start's heading, whichever way leads to it, so that
-the vehicle does not turn about between neighbours. A point that cannot be touched is listed with
-its reasons and does not refuse the mission.
+Of the two ways to turn the tool at a point the one with more thrust to spare is taken, whichever
+way leads there; it also takes less energy. Turning about costs time, so the order counts it as a
+distance. A point that cannot be touched is listed with its reasons and does not refuse the mission.
 """
 
 from __future__ import annotations
@@ -33,6 +33,8 @@ from inspect_cli.schema.tasks import MAX_POINTS, Coverage, Task
 from inspect_cli.spatial.arrays import Points, Vector
 from inspect_cli.spatial.primitives import raycast
 
+WORTH_TURNING_N = 0.5
+"""Thrust to spare that is worth another heading than that of the first start."""
 CLEAR_OF_OWN_M = 1e-3
 """From the surface to where the look ahead begins, so that it does not see the surface itself."""
 
@@ -89,14 +91,8 @@ class Surveyor:
         batch = self.batch([(str(k), place) for k, place in enumerate(places, 1)])
         if not batch.plans:
             raise InfeasibleError(_problems(batch.skipped))
-        return CoveragePlan(
-            mission=self._mission.name,
-            platform=batch.plans[0].platform,
-            sorties=tuple(Sortie(number=k, plan=p) for k, p in enumerate(batch.plans, 1)),
-            skipped=batch.skipped,
-            tour_m=batch.tour_m,
-            budget_wh=self.budget_wh,
-        )
+        sorties = [Sortie(number=k, plan=plan) for k, plan in enumerate(batch.plans, 1)]
+        return CoveragePlan.of(sorties, batch.skipped, batch.tour_m, self.budget_wh)
 
     def batch(self, places: Iterable[tuple[str, Place]]) -> Batch:
         """Flights through the points at labelled places."""
@@ -159,12 +155,15 @@ class Surveyor:
             self._bases, key=lambda base: cable_span_m(point, base.situation.limits.clamp_W)
         )
         capabilities, scene = self._capabilities, self._scene
+        best: ContactVisit | None = None
         for touch in touches(capabilities, point, self._bases[0].hover):
             found = assess(capabilities, scene, point, touch, nearest.situation.limits)
-            if not found.reasons:
-                return ContactVisit(point, self.coverage, touch, (), found)
-            reasons = reasons or list(found.reasons)
-        return reasons or [unreachable(point)]
+            spare_n = found.margins.thrust_n
+            if found.reasons:
+                reasons = reasons or list(found.reasons)
+            elif best is None or spare_n > best.assessment.margins.thrust_n + WORTH_TURNING_N:
+                best = ContactVisit(point, self.coverage, touch, (), found)
+        return best or reasons or [unreachable(point)]
 
     def _kept_out(self, point: ContactPoint) -> list[Reason]:
         reasons = []
@@ -212,9 +211,20 @@ class Surveyor:
         return chosen, [visits[k] for k in kept], skipped
 
     def _order(self, visits: Sequence[ContactVisit]) -> list[int]:
+        """The shortest way through the standoffs, turning about counted as a distance.
+
+        In the time of a turn by θ at the rate ω the vehicle covers v θ / ω. The tool's level axis
+        y_T, drawn out to v π / 2ω, is a further place: a half turn is v π / ω away.
+        """
         if not visits:
             return []
-        return shortest(_tips(visits), self._first_tip())
+        capabilities = self._capabilities
+        speed_mps = min(self._mission.flight.speed_mps, capabilities.max_speed_mps)
+        reach_m = 0.5 * np.pi * speed_mps / capabilities.max_angular_rate_radps
+        first_y = capabilities.tool_pose(self._bases[0].hover)[1][:, 1]
+        ys = np.array([visit.touch.R_WT[:, 1] for visit in visits])
+        places = np.hstack([_tips(visits), reach_m * ys])
+        return shortest(places, np.concatenate([self._first_tip(), reach_m * first_y]))
 
     def _first_tip(self) -> Vector:
         return self._capabilities.tool_pose(self._bases[0].hover)[0]

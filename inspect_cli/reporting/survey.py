@@ -53,8 +53,9 @@ def survey_html(
     """The page as text."""
     points = read_points(result, plan)
     title = log.mission().title or result.mission
+    whole = summary(log, result, points)
     sections = [
-        Section("summary", "Summary", summary(log, result, points)),
+        Section("summary", "Summary", joined(element("p", _extent(survey)), whole)),
         Section("survey", "Corrosion survey", survey_content(log, plan, points)),
         Section("coverage", "Coverage", _coverage(survey, plan, points)),
         Section("sorties", "Sorties", _sorties(survey, result, flown)),
@@ -67,8 +68,9 @@ def survey_html(
 def _coverage(survey: CoveragePlan, plan: Plan, points: Sequence[ReadPoint]) -> Markup:
     added = [t.label for s in survey.sorties if s.added for t in s.plan.targets]
     sentences = [
-        f"{survey.points} points in {len(survey.sorties)} sorties; {len(survey.skipped)} were left "
-        f"out. The way through all standoffs is {number(survey.tour_m, 1)} m, before it was split."
+        _extent(survey),
+        "The shortest way that was found through the standoffs of all points is "
+        f"{number(survey.tour_m, 1)} m, before it was split.",
     ]
     if added:
         verb = "was" if len(added) == 1 else "were"
@@ -82,6 +84,14 @@ def _coverage(survey: CoveragePlan, plan: Plan, points: Sequence[ReadPoint]) -> 
         drawn(tour_figures(survey, plan)),
         _skipped_table(survey.skipped),
     )
+
+
+def _extent(survey: CoveragePlan) -> str:
+    """How much of the surface was asked for and how much was left out."""
+    left = len(survey.skipped)
+    out = "none was left out" if not left else f"{left} {'was' if left == 1 else 'were'} left out"
+    many = "sortie" if len(survey.sorties) == 1 else "sorties"
+    return f"{survey.points} points were planned in {len(survey.sorties)} {many}; {out}."
 
 
 def _skipped_table(skipped: Sequence[Skipped]) -> Markup:

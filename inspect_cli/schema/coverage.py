@@ -50,29 +50,42 @@ class CoveragePlan(Strict):
     budget_wh: Positive
     """What a sortie may take: the battery's energy less the reserve."""
 
-    @property
-    def points(self) -> int:
-        """Points that are visited."""
-        return sum(len(sortie.plan.targets) for sortie in self.sorties)
+    points: Annotated[int, Field(ge=1)]
+    """That are visited."""
+    duration_s: Positive
+    """In the air, all sorties."""
+    energy_wh: Positive
+    """Of all sorties, by the planner's model of power."""
 
-    @property
-    def duration_s(self) -> float:
-        """In the air, all sorties."""
-        return sum(sortie.plan.duration_s for sortie in self.sorties)
-
-    @property
-    def energy_wh(self) -> float:
-        """Of all sorties."""
-        return sum(sortie.plan.energy_wh for sortie in self.sorties)
+    @classmethod
+    def of(
+        cls,
+        sorties: Sequence[Sortie],
+        skipped: Sequence[Skipped],
+        tour_m: float,
+        budget_wh: float,
+    ) -> CoveragePlan:
+        """The survey that consists of these sorties, one at least."""
+        plans = [sortie.plan for sortie in sorties]
+        return cls(
+            mission=plans[0].mission,
+            platform=plans[0].platform,
+            sorties=tuple(sorties),
+            skipped=tuple(skipped),
+            tour_m=tour_m,
+            budget_wh=budget_wh,
+            points=sum(len(plan.targets) for plan in plans),
+            duration_s=sum(plan.duration_s for plan in plans),
+            energy_wh=sum(plan.energy_wh for plan in plans),
+        )
 
     def with_sorties(self, plans: Sequence[Plan], skipped: Sequence[Skipped]) -> CoveragePlan:
         """This survey with further sorties that the refinement rule added, and points it skips."""
         first = len(self.sorties) + 1
-        more = [
-            Sortie(number=number, added=True, plan=plan) for number, plan in enumerate(plans, first)
-        ]
-        update = {"sorties": (*self.sorties, *more), "skipped": (*self.skipped, *skipped)}
-        return self.model_copy(update=update)
+        more = [Sortie(number=k, added=True, plan=plan) for k, plan in enumerate(plans, first)]
+        return self.of(
+            (*self.sorties, *more), (*self.skipped, *skipped), self.tour_m, self.budget_wh
+        )
 
     def joined(self) -> Plan:
         """All sorties as one plan, one after the other, with targets numbered through."""
