@@ -175,8 +175,7 @@ class Mission(Strict):
     def _coverage_alone(self) -> Mission:
         if len(self.tasks) > 1 and any(task.coverage is not None for task in self.tasks):
             raise ValueError(
-                "a coverage is split into sorties and must be the only task of its mission; "
-                f"there are {len(self.tasks)} tasks: give each coverage a mission of its own"
+                "a coverage is split into sorties and must be the only task of its mission"
             )
         return self
 

@@ -89,3 +89,16 @@ def dangling_surfaces(mission: Node) -> list[Problem]:
             what = f"the truth of a surface that is not there: '{shown(name)}'"
             problems.append(Problem(what, node.key_at(join(steps)), suggest(name, names)))
     return problems
+
+
+def crowded_coverages(mission: Node) -> list[Problem]:
+    """Coverages that are not the only task of their mission."""
+    tasks = mission.child("tasks")
+    if tasks is None or len(list(tasks.children())) < 2:
+        return []
+    what = "a coverage is split into sorties and must be the only task of its mission"
+    hint = "give it a mission of its own"
+    return [
+        Problem(what, node.key_at(join(steps)), hint)
+        for steps, node in matches(mission, "tasks.*.coverage")
+    ]

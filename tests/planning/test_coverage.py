@@ -117,7 +117,7 @@ def test_no_point_at_all_is_refused_with_the_reasons():
     with pytest.raises(InfeasibleError) as caught:
         surveyor(cable_m=1.0).survey()
     assert "no point can be visited: 1, 4: 2.68 m from the start" in caught.value.problems[0].what
-    with pytest.raises(InfeasibleError, match="no point of 'wall' is 0.5 m from its edge"):
+    with pytest.raises(InfeasibleError, match=r"no point of 'wall' is 0\.5 m from its edge"):
         surveyor(edge_m=0.5).survey()
     with pytest.raises(InfeasibleError, match="holds some 750000 points"):
         surveyor(pitch_m=0.001).survey()
