@@ -46,13 +46,14 @@ def energy_flown(flight: Flight) -> float:
     drives = flight.platform.rotor_drives()
     if drives is None:
         raise NotMeasured(f"a platform of kind '{flight.platform.kind}' states no rotor drives")
+    thrust = flight.state["rotor_thrust"]
+    if thrust.shape[1] != len(drives):
+        raise NotMeasured(f"the log has {thrust.shape[1]} rotors, the platform {len(drives)}")
     rows = flight.airborne | (flight.reference["mode"] == Mode.HOVER)
     times = flight.state["t_s"][rows]
     if len(times) < 2:
         raise NotMeasured("the vehicle never left the ground")
-    power_w = electrical_power_w(
-        flight.state["rotor_thrust"][rows], drives, flight.platform.battery.avionics_w
-    )
+    power_w = electrical_power_w(thrust[rows], drives, flight.platform.battery.avionics_w)
     return float(np.trapezoid(power_w, times)) / JOULE_PER_WH
 
 

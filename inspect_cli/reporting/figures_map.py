@@ -22,6 +22,8 @@ from inspect_cli.schema.plan import Plan, PlannedSurface
 
 SAME_LINE_M = 1e-3
 """Planned points whose coordinate differs by less stand in one row or column."""
+LEAST_FILLED_SHARE = 0.9
+"""Least share of a grid's nodes that were asked for; a survey leaves a few out."""
 LEAST_VALID_SHARE = 0.75
 """Least share of valid readings in a grid for contours to mean something."""
 MAX_WRITTEN_VALUES = 80
@@ -110,12 +112,15 @@ def potential_grid(
     if len(columns) < 2 or len(rows) < 2:
         return None
     table: list[list[float | None]] = [[None] * len(columns) for _ in rows]
+    filled = 0
     for (u, v), potential_mv in places:
         i, j = _nearest(rows, v), _nearest(columns, u)
         if abs(rows[i] - v) <= SAME_LINE_M and abs(columns[j] - u) <= SAME_LINE_M:
             table[i][j] = potential_mv
+            filled += 1
+    nodes = len(rows) * len(columns)
     valid = sum(potential is not None for row in table for potential in row)
-    if valid < LEAST_VALID_SHARE * len(rows) * len(columns):
+    if filled < LEAST_FILLED_SHARE * nodes or valid < LEAST_VALID_SHARE * nodes:
         return None
     return columns, rows, table
 
