@@ -13,10 +13,11 @@ from inspect_cli.log import names
 from inspect_cli.log.reader import read_log
 from inspect_cli.log.writer import LogWriter
 from inspect_cli.metrics.evaluate import evaluate
-from inspect_cli.records import CORE_RECORDS
+from inspect_cli.records import CORE_RECORDS, Record, TrueDisturbance
 from inspect_cli.schema.loading import Loaded
 from inspect_cli.schema.plan import Plan
 from inspect_cli.schema.result import Result
+from inspect_cli.schema.truth import TruthModel
 from inspect_cli.simulation.loop import Ending, Flight
 from inspect_cli.truth.geometry import true_structure
 from inspect_cli.vehicles.kinds import Vehicle
@@ -77,10 +78,11 @@ def _fly(
 ) -> Ending:
     structure = true_structure(loaded.truth, plan.surfaces, loaded.root)
     lengths = vehicle.capabilities.lengths
-    with LogWriter(folder / LOG_NAME, CORE_RECORDS, lengths) as log:
+    with LogWriter(folder / LOG_NAME, _records(loaded.truth), lengths) as log:
         _attach(log, loaded, plan, seed)
         log.scene(0.0, plan)
-        flight = Flight(vehicle, plan, loaded.truth, structure, seed, log)
+        estimation = loaded.mission.estimation
+        flight = Flight(vehicle, plan, loaded.truth, structure, seed, log, estimation)
         report = (lambda t_s: progress(t_s, plan.duration_s)) if progress else None
         try:
             ending = flight.run(report)
@@ -89,6 +91,12 @@ def _fly(
             raise FlightInterrupted(folder) from None
         log.close(ending.status, ending.reason)
     return ending
+
+
+def _records(truth: TruthModel) -> list[type[Record]]:
+    """The channels of a flight: without a rope, wind or cable there is nothing to say of them."""
+    left_out = () if truth.loads_depend_on_the_flight else (TrueDisturbance,)
+    return [record for record in CORE_RECORDS if record not in left_out]
 
 
 def _attach(log: LogWriter, loaded: Loaded, plan: Plan, seed: int) -> None:

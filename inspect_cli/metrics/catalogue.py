@@ -2,9 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from dataclasses import dataclass
-
 from inspect_cli.metrics import (
     contact,
     energy,
@@ -12,49 +9,35 @@ from inspect_cli.metrics import (
     guidance,
     half_cell,
     operation,
+    pull,
     tracking,
 )
-from inspect_cli.metrics.flight import Flight
+from inspect_cli.metrics.catalogue_estimation import ESTIMATION_METRICS
 from inspect_cli.metrics.joined import (
     GREATEST,
     LEAST,
     MEAN_OVER_ENERGY,
     MEAN_OVER_POINTS,
     MEAN_OVER_TIME,
-    NOT_JOINED,
     RMS_OVER_TIME,
     SUM,
-    Joined,
 )
+from inspect_cli.metrics.spec import MetricSpec
 from inspect_cli.records import (
     Command,
     Estimate,
     Reading,
-    Record,
     Reference,
     State,
     SurfaceEstimate,
     TrueContact,
+    TrueDisturbance,
 )
-
-
-@dataclass(frozen=True)
-class MetricSpec:
-    """A metric: ``function`` computes it from a flight that has the channels ``needs``.
-
-    ``joined`` says what the flights of one survey come to together.
-    """
-
-    unit: str
-    function: Callable[[Flight], float]
-    meaning: str
-    needs: tuple[type[Record], ...]
-    joined: Joined = NOT_JOINED
-
 
 FOLLOWED = (State, Reference)
 ESTIMATED = (State, Reference, Estimate)
 READ = (Reading,)
+PULLED = (State, Reference, TrueDisturbance)
 READ_TRULY = (Reading, State, Reference, TrueContact)
 
 METRICS: dict[str, MetricSpec] = {
@@ -267,6 +250,67 @@ METRICS: dict[str, MetricSpec] = {
         READ_TRULY,
         SUM,
     ),
+    "pull.force_peak_n": MetricSpec(
+        "N", pull.force_peak, "largest force of the rope on the tip over all pulls", PULLED
+    ),
+    "pull.angle_to_x_B_deg": MetricSpec(
+        "°",
+        pull.angle_to_x_B_deg,
+        "largest angle between the rope's force and ±x_B while above half of a pull's peak",
+        PULLED,
+    ),
+    "pull.displacement_max_m": MetricSpec(
+        "m",
+        pull.displacement_max,
+        "largest displacement of the body since a pull began",
+        PULLED,
+    ),
+    "pull.displacement_along_m": MetricSpec(
+        "m",
+        pull.displacement_along,
+        "largest displacement along the rope's peak force, of the pulls the least",
+        PULLED,
+    ),
+    "pull.displacement_z_m": MetricSpec(
+        "m", pull.displacement_z, "largest displacement up or down since a pull began", PULLED
+    ),
+    "pull.attitude_motion_m": MetricSpec(
+        "m",
+        pull.attitude_motion,
+        "largest motion of the tip by the body's rotation since a pull began",
+        PULLED,
+    ),
+    "pull.along_over_z": MetricSpec(
+        "1",
+        pull.along_over_z,
+        "displacement along the rope's force over that in z, of the pulls the least",
+        PULLED,
+    ),
+    "pull.along_over_attitude": MetricSpec(
+        "1",
+        pull.along_over_attitude,
+        "displacement along the rope's force over attitude motion, of the pulls the least",
+        PULLED,
+    ),
+    "pull.metres_per_newton": MetricSpec(
+        "m/N",
+        pull.metres_per_newton,
+        "displacement along the rope's force over the force's peak, mean over the pulls",
+        PULLED,
+    ),
+    "pull.torque_peak_nm": MetricSpec(
+        "N·m",
+        pull.torque_peak,
+        "largest torque of the rope about z_B through O_b",
+        PULLED,
+    ),
+    "pull.yaw_max_rad": MetricSpec("rad", pull.yaw_max, "largest yaw since a pull began", PULLED),
+    "pull.yaw_per_nm": MetricSpec(
+        "rad/(N·m)",
+        pull.yaw_per_nm,
+        "largest yaw over largest torque about z_B, mean over the pulls",
+        PULLED,
+    ),
     "flight.duration_s": MetricSpec(
         "s",
         operation.duration,
@@ -316,4 +360,5 @@ METRICS: dict[str, MetricSpec] = {
         (State,),
         GREATEST,
     ),
+    **ESTIMATION_METRICS,
 }

@@ -159,7 +159,7 @@ def _flight(
         element("h3", "Contact force and external wrench"),
         drawn(forces[:1]),
         drawn(forces[1:], side_by_side=True),
-        metrics_table("Contact and readings.", result, ("contact", "half_cell")),
+        metrics_table("Contact and readings.", result, CONTACT_GROUPS),
         element("h3", "Surface seen by the depth camera"),
         drawn(surface_figures(log, timeline)),
         element("h3", "Actuators"),
@@ -173,7 +173,8 @@ def _flight(
     )
 
 
-SHOWN_GROUPS = ("tracking", "estimation", "contact", "half_cell")
+CONTACT_GROUPS = ("contact", "force_sensor", "half_cell")
+SHOWN_GROUPS = ("tracking", "estimation", *CONTACT_GROUPS)
 
 
 def _other_groups(result: Result) -> list[str]:

@@ -10,7 +10,8 @@ from typing import Annotated, Literal
 
 from pydantic import Field, model_validator
 
-from inspect_cli.schema.base import Name, NonNegative, Positive, Strict, Triple
+from inspect_cli.schema.base import Count, Name, NonNegative, Positive, Strict, Triple
+from inspect_cli.schema.disturbances import Disturbance, refuse_impossible
 from inspect_cli.schema.geometry import Displacement, Shape
 
 
@@ -51,6 +52,19 @@ class GridSpecimen(Strict):
 Specimen = Annotated[AnalyticSpecimen | GridSpecimen, Field(discriminator="model")]
 
 
+class ForceSensorModel(Strict):
+    """A six-axis force and torque sensor that the whole surface is mounted on."""
+
+    rate_hz: Count = 800
+    """Must divide the platform's physics rate."""
+    resolution_n: NonNegative = 0.1
+    """Step of its output; 0 for none."""
+    torque_resolution_nm: NonNegative = 0.002
+    noise_n: NonNegative = 0.0
+    """Standard deviation of each sample and axis."""
+    torque_noise_nm: NonNegative = 0.0
+
+
 class TrueSurface(Strict):
     """What one of the structure's surfaces really is."""
 
@@ -63,6 +77,8 @@ class TrueSurface(Strict):
     friction: NonNegative = 0.5
     """Coulomb friction between the tool's tip and the surface."""
     specimen: Specimen | None = None
+    force_sensor: ForceSensorModel | None = None
+    """What measures, in the wall, the force of the tool on this surface."""
 
 
 class TruePlatform(Strict):
@@ -72,21 +88,6 @@ class TruePlatform(Strict):
     """Scales mass and inertia of every body."""
     com_offset_m: Triple = (0.0, 0.0, 0.0)
     """Shifts the centre of mass of the core, in B."""
-
-
-class ConstantWrench(Strict):
-    """A force and a torque that act on the body from ``start_s`` on."""
-
-    kind: Literal["constant"] = "constant"
-    frame: Literal["world", "body"] = "world"
-    force_n: Triple = (0.0, 0.0, 0.0)
-    torque_nm: Triple = (0.0, 0.0, 0.0)
-    start_s: NonNegative = 0.0
-    ramp_s: NonNegative = 1.0
-    """The wrench rises linearly over this time."""
-
-
-Disturbance = ConstantWrench
 
 
 class ProximityEffects(Strict):
@@ -100,7 +101,7 @@ class ProximityEffects(Strict):
 class SensorFault(Strict):
     """A sensor that fails during the flight. Nothing flies on without its inertial unit."""
 
-    sensor: Literal["tof", "pose", "probe"]
+    sensor: Literal["tof", "pose", "odometry", "probe"]
     fault: Literal["off", "nan"] = "off"
     start_s: NonNegative = 0.0
     end_s: Positive | None = None
@@ -121,3 +122,13 @@ class TruthModel(Strict):
     disturbances: tuple[Disturbance, ...] = ()
     proximity: ProximityEffects = ProximityEffects()
     faults: tuple[SensorFault, ...] = ()
+
+    @model_validator(mode="after")
+    def _possible(self) -> TruthModel:
+        refuse_impossible(self.disturbances)
+        return self
+
+    @property
+    def loads_depend_on_the_flight(self) -> bool:
+        """Whether a rope, a wind or a cable acts: their forces are worth a channel of the log."""
+        return any(entry.kind != "constant" for entry in self.disturbances)

@@ -34,6 +34,10 @@ WALL_THICKNESS_M = 0.2
 FACET_SAGITTA_M = 0.0005
 """How far a tangent box may stand off a concave surface."""
 GROUND_FRICTION = 0.8
+WALL_SENSOR = "wall_sensor:"
+"""How the names begin of what measures the contact of the tip with one geom."""
+NET_FORCE = 3
+"""MuJoCo's reduction of all contacts to their net force at its centre."""
 
 
 def build_world(
@@ -55,6 +59,7 @@ def build_world(
         )
     _add_contact_sensor(spec, "tool")
     _add_contact_sensor(spec, "shell")
+    _add_wall_sensors(spec, structure)
     model = spec.compile()
     _set_tip_contact(model, vehicle.tip, len(pairs))
     return model
@@ -155,14 +160,35 @@ def _add_box(
 def _add_contact_sensor(spec: mujoco.MjSpec, body: str) -> None:
     """Net contact force of a body with everything, in W."""
     force = 1 << int(mujoco.mjtConDataField.mjCONDATA_FORCE)
-    net_force = 3
     spec.add_sensor(
         name=f"contact_{body}",
         type=mujoco.mjtSensor.mjSENS_CONTACT,
         objtype=mujoco.mjtObj.mjOBJ_BODY,
         objname=body,
-        intprm=[force, net_force, 1],
+        intprm=[force, NET_FORCE, 1],
     )
+
+
+def _add_wall_sensors(spec: mujoco.MjSpec, structure: StructureTruth) -> None:
+    """What the tip does to each geom of a surface with a force sensor.
+
+    Net force, torque and position in W; the torque is about the position. MuJoCo evaluates them
+    in every step, so that a world without such a surface has none.
+    """
+    measured = {s.name for s in structure.surfaces if s.force_sensor is not None}
+    kinds = ("FORCE", "TORQUE", "POS")
+    asked = sum(1 << int(getattr(mujoco.mjtConDataField, f"mjCONDATA_{kind}")) for kind in kinds)
+    for geom in list(spec.worldbody.geoms):
+        if geom.name.partition(":")[0] in measured:
+            spec.add_sensor(
+                name=f"{WALL_SENSOR}{geom.name}",
+                type=mujoco.mjtSensor.mjSENS_CONTACT,
+                objtype=mujoco.mjtObj.mjOBJ_GEOM,
+                objname="tip",
+                reftype=mujoco.mjtObj.mjOBJ_GEOM,
+                refname=geom.name,
+                intprm=[asked, NET_FORCE, 1],
+            )
 
 
 def _set_tip_contact(model: mujoco.MjModel, tip: Tip, n_pairs: int) -> None:

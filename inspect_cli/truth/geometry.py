@@ -9,7 +9,7 @@ from pathlib import Path
 from inspect_cli.schema.geometry import Shape
 from inspect_cli.schema.plan import PlannedSurface
 from inspect_cli.schema.primitives import displaced, primitives_of
-from inspect_cli.schema.truth import TrueSurface, TruthModel
+from inspect_cli.schema.truth import ForceSensorModel, TrueSurface, TruthModel
 from inspect_cli.spatial.arrays import Structured
 from inspect_cli.truth.specimen import SpecimenField, load_specimen
 
@@ -22,6 +22,7 @@ class SurfaceTruth:
     shape: Shape
     friction: float
     specimen: SpecimenField | None
+    force_sensor: ForceSensorModel | None = None
 
 
 @dataclass(frozen=True)
@@ -43,5 +44,7 @@ def true_structure(
             continue
         shape = displaced(entry.geometry or belief.shape, entry.moved)
         specimen = load_specimen(entry.specimen, root) if entry.specimen else None
-        surfaces.append(SurfaceTruth(belief.name, shape, entry.friction, specimen))
+        surfaces.append(
+            SurfaceTruth(belief.name, shape, entry.friction, specimen, entry.force_sensor)
+        )
     return StructureTruth(tuple(surfaces), primitives_of([s.shape for s in surfaces]))

@@ -10,10 +10,11 @@ import numpy as np
 
 from inspect_cli.interfaces import Posture
 from inspect_cli.records import Command
+from inspect_cli.schema.disturbances import Disturbance
 from inspect_cli.schema.geometry import Shape
 from inspect_cli.schema.loading import load_platform
 from inspect_cli.schema.primitives import primitives_of
-from inspect_cli.schema.truth import Disturbance, ProximityEffects, TruePlatform
+from inspect_cli.schema.truth import ProximityEffects, TruePlatform
 from inspect_cli.schema.vehicle import TiltRotorPlatform
 from inspect_cli.simulation.plant import Plant
 from inspect_cli.simulation.world import build_world
@@ -60,13 +61,14 @@ def plant_of(
     structure = structure or structure_of([])
     model = build_world(vehicle, truth or TruePlatform(), structure)
     radius_m = vehicle.actuators.rotor_radius_m
+    control_hz = vehicle.platform.rates.control_hz
     return Plant(
         model,
         vehicle,
         vehicle.capabilities.lengths,
-        Disturbances(disturbances),
+        Disturbances(disturbances, np.random.default_rng(0), control_hz),
         Proximity(effects, structure.primitives, radius_m),
-        vehicle.platform.rates.control_hz,
+        control_hz,
     )
 
 
