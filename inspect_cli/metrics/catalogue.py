@@ -4,19 +4,17 @@ from __future__ import annotations
 
 from inspect_cli.metrics import (
     contact,
-    energy,
     estimation,
     guidance,
     half_cell,
-    operation,
     pull,
     tracking,
 )
 from inspect_cli.metrics.catalogue_estimation import ESTIMATION_METRICS
+from inspect_cli.metrics.catalogue_flight import FLIGHT_METRICS
 from inspect_cli.metrics.joined import (
     GREATEST,
     LEAST,
-    MEAN_OVER_ENERGY,
     MEAN_OVER_POINTS,
     MEAN_OVER_TIME,
     RMS_OVER_TIME,
@@ -24,7 +22,6 @@ from inspect_cli.metrics.joined import (
 )
 from inspect_cli.metrics.spec import MetricSpec
 from inspect_cli.records import (
-    Command,
     Estimate,
     Reading,
     Reference,
@@ -311,54 +308,6 @@ METRICS: dict[str, MetricSpec] = {
         "largest yaw over largest torque about z_B, mean over the pulls",
         PULLED,
     ),
-    "flight.duration_s": MetricSpec(
-        "s",
-        operation.duration,
-        "time off the ground",
-        FOLLOWED,
-        SUM,
-    ),
-    "flight.energy_wh_planned": MetricSpec(
-        "Wh",
-        operation.energy_planned,
-        "energy of the flight by the plan",
-        (),
-        SUM,
-    ),
-    "flight.energy_wh_flown": MetricSpec(
-        "Wh",
-        energy.energy_flown,
-        "electrical energy from take-off to landing, from the true speeds of the rotors",
-        FOLLOWED,
-        SUM,
-    ),
-    "flight.energy_planned_over_flown": MetricSpec(
-        "1",
-        energy.planned_over_flown,
-        "energy of the flight by the plan over the energy that the rotors took",
-        FOLLOWED,
-        MEAN_OVER_ENERGY,
-    ),
-    "flight.saturated_share": MetricSpec(
-        "1",
-        operation.saturated_share,
-        "share of the flight in which the allocation granted less than was asked",
-        (State, Reference, Command),
-        MEAN_OVER_TIME,
-    ),
-    "flight.end_speed_mps": MetricSpec(
-        "m/s",
-        operation.end_speed,
-        "largest true speed over the last second of the log",
-        (State,),
-        GREATEST,
-    ),
-    "actuators.thrust_max_n": MetricSpec(
-        "N",
-        operation.thrust_max,
-        "largest true thrust of a single rotor",
-        (State,),
-        GREATEST,
-    ),
+    **FLIGHT_METRICS,
     **ESTIMATION_METRICS,
 }

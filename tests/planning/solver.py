@@ -5,14 +5,19 @@ from __future__ import annotations
 import numpy as np
 from ortools.constraint_solver import pywrapcp, routing_enums_pb2
 
+from inspect_cli.autonomy.executive import posture_of
+
 MICRO = 1e6
 """The solver counts in whole numbers."""
 
 
-def length_m(points_W, start_W, order) -> float:
-    """Of the open path from the start through the points."""
-    path = np.vstack([start_W, points_W[list(order)]])
-    return float(np.linalg.norm(np.diff(path, axis=0), axis=1).sum())
+def tips_of(capabilities, survey):
+    """The tool's tips (n, 3) m at the standoffs in the order of the flights, and the first's (3,)
+    over the start."""
+    targets = [target for sortie in survey.sorties for target in sortie.plan.targets]
+    tips = np.array([np.array(t.p_WC) + t.standoff_m * np.array(t.n_W) for t in targets])
+    hover = survey.sorties[0].plan.legs[0].postures[-1]
+    return tips, capabilities.tool_pose(posture_of(hover))[0]
 
 
 def solver_m(points_W, start_W, limit_s: int) -> float:

@@ -8,9 +8,8 @@ import numpy as np
 import pytest
 from builders import ball, column, mission, wall
 from rigid import RigidVehicle
-from solver import solver_m
+from solver import solver_m, tips_of
 
-from inspect_cli.autonomy.executive import posture_of
 from inspect_cli.commands.plan import surveyor_of, vehicle_of
 from inspect_cli.errors import InfeasibleError
 from inspect_cli.planning.coverage import Surveyor
@@ -157,10 +156,7 @@ def test_the_vault_s_points(vault):
 def test_the_vault_s_way_is_as_short_as_a_routing_solver_s(vault):
     """Within 10 %, although the order also saves turns, of which the solver knows nothing."""
     capabilities, survey = vault
-    targets = [target for sortie in survey.sorties for target in sortie.plan.targets]
-    tips = np.array([np.array(t.p_WC) + t.standoff_m * np.array(t.n_W) for t in targets])
-    hover = survey.sorties[0].plan.legs[0].postures[-1]
-    start = capabilities.tool_pose(posture_of(hover))[0]
+    tips, start = tips_of(capabilities, survey)
     path = np.vstack([start, tips])
     assert survey.tour_m == pytest.approx(np.linalg.norm(np.diff(path, axis=0), axis=1).sum())
     assert survey.tour_m <= 1.10 * solver_m(tips, start, 3)
