@@ -51,12 +51,12 @@ def fly(
     seed = loaded.mission.seeds[0] if seed is None else seed
     folder = out or run_folder(loaded.root, plan.mission, plan.platform, seed)
     believed = plan.sorties[0].plan.surfaces if isinstance(plan, CoveragePlan) else plan.surfaces
-    true_structure(loaded.truth, believed, loaded.root)  # refused before anything is written
+    structure = true_structure(loaded.truth, believed, loaded.root)
     with prepared_run(folder):
         if isinstance(plan, CoveragePlan):
-            result, ending = fly_survey(folder, vehicle, plan, loaded, seed, progress)
+            result, ending = fly_survey(folder, vehicle, plan, loaded, structure, seed, progress)
         else:
-            result, ending = fly_into(folder, vehicle, plan, loaded, seed, progress)
+            result, ending = fly_into(folder, vehicle, plan, loaded, structure, seed, progress)
     return FlyOutcome(result, folder, ending)
 
 

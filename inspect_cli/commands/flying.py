@@ -19,7 +19,7 @@ from inspect_cli.schema.plan import Plan
 from inspect_cli.schema.result import Result
 from inspect_cli.schema.truth import TruthModel
 from inspect_cli.simulation.loop import Ending, Flight
-from inspect_cli.truth.geometry import true_structure
+from inspect_cli.truth.geometry import StructureTruth
 from inspect_cli.vehicles.kinds import Vehicle
 
 VERSIONED = ("inspect-cli", "mujoco", "numpy", "numba", "mcap")
@@ -41,6 +41,7 @@ def fly_into(
     vehicle: Vehicle,
     plan: Plan,
     loaded: Loaded,
+    structure: StructureTruth,
     seed: int,
     progress: Progress | None,
 ) -> tuple[Result, Ending]:
@@ -50,7 +51,7 @@ def fly_into(
         FlightInterrupted: the user stopped it; the log holds the part that was flown.
     """
     folder.mkdir(parents=True, exist_ok=True)
-    ending = _fly(folder, vehicle, plan, loaded, seed, progress)
+    ending = _fly(folder, vehicle, plan, loaded, structure, seed, progress)
     write_model(folder / "plan.json", plan)
     result = evaluate(read_log(folder / LOG_NAME))
     write_model(folder / "metrics.json", result)
@@ -73,14 +74,15 @@ def _fly(
     vehicle: Vehicle,
     plan: Plan,
     loaded: Loaded,
+    structure: StructureTruth,
     seed: int,
     progress: Progress | None,
 ) -> Ending:
-    structure = true_structure(loaded.truth, plan.surfaces, loaded.root)
     lengths = vehicle.capabilities.lengths
     with LogWriter(folder / LOG_NAME, _records(loaded.truth), lengths) as log:
         _attach(log, loaded, plan, seed)
         log.scene(0.0, plan)
+        _note_reliefs(log, structure)
         estimation = loaded.mission.estimation
         flight = Flight(vehicle, plan, loaded.truth, structure, seed, log, estimation)
         report = (lambda t_s: progress(t_s, plan.duration_s)) if progress else None
@@ -97,6 +99,16 @@ def _records(truth: TruthModel) -> list[type[Record]]:
     """The channels of a flight: without a rope, wind or cable there is nothing to say of them."""
     left_out = () if truth.loads_depend_on_the_flight else (TrueDisturbance,)
     return [record for record in CORE_RECORDS if record not in left_out]
+
+
+def _note_reliefs(log: LogWriter, structure: StructureTruth) -> None:
+    """Say in the log how true the heights are that stand for a mesh."""
+    for surface in structure.surfaces:
+        if surface.relief is not None:
+            pitch = max(surface.relief.row["pitch"][0])
+            departs_mm = 1e3 * surface.relief.deviation_m
+            text = f"truth: '{surface.name}' is a mesh, flown as heights every {pitch:.3g} m"
+            log.event(0.0, "info", f"{text} that depart from it by {departs_mm:.2g} mm at most")
 
 
 def _attach(log: LogWriter, loaded: Loaded, plan: Plan, seed: int) -> None:

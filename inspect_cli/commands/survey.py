@@ -22,6 +22,7 @@ from inspect_cli.schema.loading import Loaded
 from inspect_cli.schema.result import Result
 from inspect_cli.simulation.loop import Ending
 from inspect_cli.simulation.randomness import sortie_seed
+from inspect_cli.truth.geometry import StructureTruth
 from inspect_cli.vehicles.kinds import Vehicle
 
 
@@ -30,6 +31,7 @@ def fly_survey(
     vehicle: Vehicle,
     plan: CoveragePlan,
     loaded: Loaded,
+    structure: StructureTruth,
     seed: int,
     progress: Progress | None,
 ) -> tuple[Result, Ending]:
@@ -51,7 +53,7 @@ def fly_survey(
         drawn = sortie_seed(seed, sortie.number)
         try:
             result, ending = fly_into(
-                folder / sortie.folder, vehicle, sortie.plan, loaded, drawn, told
+                folder / sortie.folder, vehicle, sortie.plan, loaded, structure, drawn, told
             )
         except FlightInterrupted:
             raise FlightInterrupted(folder) from None

@@ -16,9 +16,9 @@ from inspect_cli.sensing.tof import TofCamera
 from inspect_cli.sensing.wall_force import WallForceSensor
 from inspect_cli.simulation.randomness import component_rng
 from inspect_cli.spatial.arrays import Vector
-from inspect_cli.spatial.primitives import plane
-from inspect_cli.truth.faults import Faults, spoil
+from inspect_cli.truth.faults import Faults, punch_holes, spoil
 from inspect_cli.truth.geometry import StructureTruth
+from inspect_cli.truth.solids import on_the_ground
 
 
 class Instruments:
@@ -36,8 +36,7 @@ class Instruments:
         estimation: Estimation = "external",
     ) -> None:
         sensors = platform.sensors
-        ground = plane(np.zeros(3), np.array([0.0, 0.0, 1.0]), (200.0, 200.0))
-        seen = np.concatenate([structure.primitives, ground])
+        seen = on_the_ground(structure.solids)
         self.imu = ImuSensor(sensors.imu, platform.rates.imu_hz, component_rng(seed, "imu"))
         self.odometry: OdometrySensor | None = None
         self.pose: PoseSensor | OdometrySensor
@@ -51,6 +50,7 @@ class Instruments:
         self.probe = HalfCellProbe(sensors.half_cell, component_rng(seed, "probe"))
         self.wall = _wall_sensor(structure, seed)
         self._faults = faults
+        self._holes = component_rng(seed, "tof holes")
 
     def sample_imu(self, state: State) -> bool:
         """An inertial sample."""
@@ -66,7 +66,13 @@ class Instruments:
         if fault is not None and fault.fault == "off":
             return False
         self.tof.sample(state)
-        if fault is not None:
+        if fault is None:
+            return True
+        if fault.share is not None:
+            model = self.tof.model
+            image = self.tof.points_D.reshape(model.rows, model.columns, 3)
+            punch_holes(image, fault.share, self._holes)
+        else:
             self.tof.points_D[...] = np.nan
         return True
 
@@ -98,6 +104,6 @@ class Instruments:
 def _wall_sensor(structure: StructureTruth, seed: int) -> WallForceSensor | None:
     for index, surface in enumerate(structure.surfaces):
         if surface.force_sensor is not None:
-            primitive = structure.primitives[index : index + 1]
+            primitive = structure.solids.primitives[index : index + 1]
             return WallForceSensor(surface.force_sensor, primitive, component_rng(seed, "wall"))
     return None

@@ -14,10 +14,10 @@ from xml.etree.ElementTree import ParseError
 
 import numpy as np
 
+from inspect_cli.scans.files import confined, refused, require_file
 from inspect_cli.schema.mission import Mission
 from inspect_cli.schema.tasks import MAX_POINTS, Trace
 from inspect_cli.spatial.arrays import Points
-from inspect_cli.structure.files import confined, refused, require_file
 
 Stroke = tuple[Points, ...]
 
