@@ -121,7 +121,8 @@ def energy_figure(survey: CoveragePlan, flown: Sequence[Result]) -> Figure:
     return Figure(
         "sortie-energy",
         "Energy of each sortie: as planned from hover powers, and as flown from the true speeds "
-        "of the rotors. Dashed: what a sortie may plan with.",
+        "of the rotors. Dashed: what a sortie may plan with; what it takes beyond that is from the "
+        "reserve.",
         "Bars of planned and flown energy for each sortie.",
         bars,
         {"barmode": "group", "yaxis": {"title": {"text": "energy (Wh)"}, "rangemode": "tozero"}},
