@@ -7,6 +7,7 @@ energy in all, exactly: best(j) = min over i ≤ j and starts s of best(i − 1)
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import NamedTuple
 
@@ -54,32 +55,41 @@ def split(costs: Costs, budget_j: float) -> list[Stage]:
     n = len(costs.work)
     if n and not np.all(costs.alone() <= budget_j):
         raise ValueError("a visit does not fit into a flight of its own")
-    reached = np.isfinite(costs.out) & np.isfinite(costs.home)
     best: list[tuple[int, float]] = [(0, 0.0)]
-    last_stage: list[Stage] = []
+    chosen: list[Stage] = []
     for last in range(n):
-        found, stage = (n + 1, np.inf), Stage(last, last, 0)
-        within, carried_j = reached[:, last].copy(), 0.0
-        for first in range(last, -1, -1):
-            carried_j += costs.work[first]
-            if first < last:
-                carried_j += costs.between[first]
-            within &= reached[:, first]
-            if carried_j > budget_j or not within.any():
-                break
-            total_j = np.where(
-                within, carried_j + costs.out[:, first] + costs.home[:, last], np.inf
-            )
-            start = int(np.argmin(total_j))
-            flights, spent_j = best[first]
-            candidate = (flights + 1, spent_j + float(total_j[start]))
-            if total_j[start] <= budget_j and candidate < found:
-                found, stage = candidate, Stage(first, last, start)
+        found, stage = _last_flight(costs, budget_j, best, last)
         best.append(found)
-        last_stage.append(stage)
+        chosen.append(stage)
     stages: list[Stage] = []
     end = n - 1
     while end >= 0:
-        stages.append(last_stage[end])
-        end = last_stage[end].first - 1
+        stages.append(chosen[end])
+        end = chosen[end].first - 1
     return stages[::-1]
+
+
+def _last_flight(
+    costs: Costs, budget_j: float, best: Sequence[tuple[int, float]], last: int
+) -> tuple[tuple[int, float], Stage]:
+    """The best flight that ends with visit ``last``, and (flights, J) of everything up to it.
+
+    ``best`` holds (flights, J) of the first k visits for k = 0 … ``last``.
+    """
+    reached = np.isfinite(costs.out) & np.isfinite(costs.home)
+    found, stage = (len(costs.work) + 1, np.inf), Stage(last, last, 0)
+    within, carried_j = reached[:, last].copy(), 0.0
+    for first in range(last, -1, -1):
+        carried_j += costs.work[first]
+        if first < last:
+            carried_j += costs.between[first]
+        within &= reached[:, first]
+        if carried_j > budget_j or not within.any():
+            break
+        total_j = np.where(within, carried_j + costs.out[:, first] + costs.home[:, last], np.inf)
+        start = int(np.argmin(total_j))
+        flights, spent_j = best[first]
+        candidate = (flights + 1, spent_j + float(total_j[start]))
+        if total_j[start] <= budget_j and candidate < found:
+            found, stage = candidate, Stage(first, last, start)
+    return found, stage
