@@ -12,6 +12,7 @@ from inspect_cli.metrics import (
 )
 from inspect_cli.metrics.catalogue_estimation import ESTIMATION_METRICS
 from inspect_cli.metrics.catalogue_flight import FLIGHT_METRICS
+from inspect_cli.metrics.catalogue_sliding import SLIDING_METRICS
 from inspect_cli.metrics.joined import (
     GREATEST,
     LEAST,
@@ -160,7 +161,7 @@ METRICS: dict[str, MetricSpec] = {
     "contact.force_cv": MetricSpec(
         "1",
         contact.force_cv,
-        "worst coefficient of variation of a dwell's true force after its first second",
+        "worst coefficient of variation of a contact's true force after its first second",
         FOLLOWED,
         GREATEST,
     ),
@@ -310,4 +311,5 @@ METRICS: dict[str, MetricSpec] = {
     ),
     **FLIGHT_METRICS,
     **ESTIMATION_METRICS,
+    **SLIDING_METRICS,
 }

@@ -74,6 +74,16 @@ class Pull:
         return largest(self.displacement @ direction)
 
     @property
+    def across(self) -> float:
+        """The largest level displacement square to the peak force, m."""
+        ahead = self.force_W[np.argmax(self.strength)]
+        aside = np.array([-ahead[1], ahead[0], 0.0])
+        length = float(np.linalg.norm(aside))
+        if length == 0.0:
+            raise NotMeasured("the cord pulled straight up or down")
+        return largest(np.abs(self.displacement @ (aside / length)))
+
+    @property
     def upwards(self) -> float:
         """The largest displacement up or down, m."""
         return largest(np.abs(self.displacement[:, 2]))
@@ -84,6 +94,13 @@ class Pull:
         unturned = np.tile([1.0, 0.0, 0.0, 0.0], (len(self.turn), 1))
         arm_m = np.linalg.norm(self.state["p_WT"][0] - self.state["p_WB"][0])
         return largest(attitude_angle(self.turn, unturned)) * float(arm_m)
+
+    @property
+    def angle_to_x_B(self) -> float:
+        """The largest angle between force and ±x_B while above half of the peak, rad."""
+        strong = self.strength > STRONG * self.peak
+        away = direction_angle(self.force_W[strong], _axes(self.state["q_WB"][strong], 0))
+        return largest(np.minimum(away, np.pi - away))
 
     @property
     def torque(self) -> float:
@@ -151,13 +168,7 @@ def force_peak(flight: Flight) -> float:
 
 def angle_to_x_B_deg(flight: Flight) -> float:
     """The largest angle between the cord's force and ±x_B above half of a pull's peak, degrees."""
-
-    def angle(pull: Pull) -> float:
-        strong = pull.strength > STRONG * pull.peak
-        away = direction_angle(pull.force_W[strong], _axes(pull.state["q_WB"][strong], 0))
-        return largest(np.minimum(away, np.pi - away))
-
-    return float(np.degrees(largest(_each(flight, angle))))
+    return float(np.degrees(largest(_each(flight, lambda pull: pull.angle_to_x_B))))
 
 
 def displacement_max(flight: Flight) -> float:

@@ -23,6 +23,7 @@ from inspect_cli.reporting.report import (
 )
 from inspect_cli.reporting.table import NOTHING, Column, chip, number, table
 from inspect_cli.reporting.tables import fits_table, metrics_table
+from inspect_cli.reporting.works import works_of
 from inspect_cli.schema.coverage import CoveragePlan, Skipped, Sortie
 from inspect_cli.schema.plan import Plan
 from inspect_cli.schema.result import Result
@@ -53,16 +54,20 @@ def survey_html(
     """The page as text."""
     points = read_points(result, plan)
     title = log.mission().title or result.mission
-    whole = summary(log, result, points)
+    works = works_of(log, plan)
+    whole = summary(log, result, works, points)
+    read = []
+    if points:
+        read = [Section("survey", "Corrosion survey", survey_content(log, plan, points))]
     sections = [
         Section("summary", "Summary", joined(element("p", _extent(survey)), whole)),
-        Section("survey", "Corrosion survey", survey_content(log, plan, points)),
+        *read,
         Section("coverage", "Coverage", _coverage(survey, plan, points)),
         Section("sorties", "Sorties", _sorties(survey, result, flown)),
         Section("structure", "Structure", fits_table(plan)),
         Section("provenance", "Provenance", _provenance(log, result, plan)),
     ]
-    return page(f"{title} – inspection report", header(log, result, title), sections)
+    return page(f"{title} – inspection report", header(log, result, works, title), sections)
 
 
 def _coverage(survey: CoveragePlan, plan: Plan, points: Sequence[ReadPoint]) -> Markup:

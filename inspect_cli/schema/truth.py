@@ -89,6 +89,8 @@ class TruePlatform(Strict):
     """Scales mass and inertia of every body."""
     com_offset_m: Triple = (0.0, 0.0, 0.0)
     """Shifts the centre of mass of the core, in B."""
+    odometry_drift_mps: Triple = (0.0, 0.0, 0.0)
+    """What the odometry drifts in W all the time, at rest too, on top of its model."""
 
 
 class ProximityEffects(Strict):

@@ -6,6 +6,7 @@ import numpy as np
 
 from inspect_cli.interfaces import Sensor
 from inspect_cli.records import Probe, State, TrueContact, WallForce
+from inspect_cli.schema.base import Triple
 from inspect_cli.schema.positioning import Estimation
 from inspect_cli.schema.vehicle import PlatformBase
 from inspect_cli.sensing.half_cell import HalfCellProbe
@@ -34,6 +35,7 @@ class Instruments:
         faults: Faults,
         seed: int,
         estimation: Estimation = "external",
+        odometry_drift_mps: Triple = (0.0, 0.0, 0.0),
     ) -> None:
         sensors = platform.sensors
         seen = on_the_ground(structure.solids)
@@ -41,7 +43,9 @@ class Instruments:
         self.odometry: OdometrySensor | None = None
         self.pose: PoseSensor | OdometrySensor
         if estimation == "onboard" and sensors.odometry is not None:
-            self.odometry = OdometrySensor(sensors.odometry, component_rng(seed, "odometry"))
+            self.odometry = OdometrySensor(
+                sensors.odometry, component_rng(seed, "odometry"), odometry_drift_mps
+            )
             self.pose = self.odometry
         else:
             self.pose = PoseSensor(sensors.pose, component_rng(seed, "pose"))

@@ -83,7 +83,14 @@ class Flight:
         self.plan = plan
         self.contact = ContactTruth(structure)
         faults = Faults(truth.faults)
-        self.instruments = Instruments(platform, structure, faults, seed, estimation)
+        self.instruments = Instruments(
+            platform,
+            structure,
+            faults,
+            seed,
+            estimation,
+            truth.platform.odometry_drift_mps,
+        )
         self.stack = vehicle.flight_stack(estimation)
         believed = {surface.name: primitive_of(surface.shape) for surface in plan.surfaces}
         self.guidance = Pursuit(vehicle.capabilities, posture_of(plan.start), believed)
