@@ -7,6 +7,7 @@ from pathlib import Path
 
 from inspect_cli.files import write_whole
 from inspect_cli.log.reader import RunLog
+from inspect_cli.reporting.figure import drawn
 from inspect_cli.reporting.figures_survey import energy_figure, tour_figures
 from inspect_cli.reporting.markup import Markup, element, joined
 from inspect_cli.reporting.page import Section, page
@@ -16,7 +17,6 @@ from inspect_cli.reporting.readings_csv import readings_csv
 from inspect_cli.reporting.report import (
     READINGS_NAME,
     REPORT_NAME,
-    drawn,
     header,
     summary,
     survey_content,
