@@ -19,6 +19,7 @@ from inspect_cli.reporting.figures_servoing import servoing_figures, slides_of
 from inspect_cli.reporting.markup import Markup, element, joined
 from inspect_cli.reporting.page import Section
 from inspect_cli.reporting.rows import rows_of
+from inspect_cli.reporting.table import definitions, number
 from inspect_cli.reporting.tables import metrics_table
 from inspect_cli.reporting.timeline import Timeline
 from inspect_cli.reporting.works import Works
@@ -58,15 +59,15 @@ def _pulls(log: RunLog, result: Result) -> Markup:
 
 
 def _drawing(log: RunLog, result: Result, plan: Plan) -> Markup:
-    numbers = drawings_of(plan) if _has(log, (State, Reference)) else []
+    drawings = drawings_of(plan) if _has(log, (State, Reference)) else []
     flight = Flight(log)
     shown = [
         joined(
-            element("h3", f"Drawing {number + 1}") if len(numbers) > 1 else "",
-            drawn(drawing_figures(flight, number)),
-            drawn(course_figures(flight, number), side_by_side=True),
+            element("h3", f"Drawing {k + 1}") if len(drawings) > 1 else "",
+            drawn(drawing_figures(flight, drawing)),
+            drawn(course_figures(flight, drawing), side_by_side=True),
         )
-        for number in numbers
+        for k, drawing in enumerate(drawings)
     ]
     return joined(_or_reason(shown), metrics_table("Drawing.", result, ("drawing",)))
 
@@ -75,7 +76,15 @@ def _servoing(log: RunLog, result: Result) -> Markup:
     flight = Flight(log)
     found = slides_of(flight) if _has(log, (State, Reference, TrueContact)) else []
     shown = [drawn(servoing_figures(flight, k + 1, slide)) for k, slide in enumerate(found)]
-    return joined(_or_reason(shown), metrics_table("Depth servoing.", result, ("slide",)))
+    drift = result.metrics.get("estimation.drift_at_first_contact_m")
+    off = None if drift is None or drift.value is None else 1e3 * drift.value
+    return joined(
+        _or_reason(shown),
+        definitions([("Drift of the estimate at the first touch", f"{number(off, 1)} mm")])
+        if off is not None
+        else "",
+        metrics_table("Depth servoing.", result, ("slide",)),
+    )
 
 
 def _ground_truth(log: RunLog, result: Result, timeline: Timeline) -> Markup:

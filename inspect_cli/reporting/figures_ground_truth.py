@@ -51,8 +51,8 @@ def position_figure(log: RunLog, timeline: Timeline) -> Iterator[Figure]:
         return
     yield stacked(
         "ground-truth-x",
-        "Position of the body along x of the world: set-point, estimate and truth. In contact, "
-        "shaded, the wall blocks the motion.",
+        "Position of the body along x of the world: set-point, estimate and truth. Shaded: "
+        "contact, in which the surface blocks the motion into it.",
         "Position along x over time: set-point, estimate and truth.",
         [Panel("x (m)", lines, height_px=200, off_ground=True)],
         timeline,

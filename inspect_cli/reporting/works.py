@@ -158,7 +158,8 @@ def _held(works: Works, result: Result) -> Iterator[str]:
     if works.poses and not works.pulls:
         error = _millimetres(result, "tracking.tool_error_p95_m")
         if error:
-            yield f"out of contact the tip was within {error} of its reference 95 % of the time."
+            where = "out of contact" if works.touches else "from take-off to landing"
+            yield f"{where} the tip was within {error} of its reference 95 % of the time."
 
 
 def _pulled(works: Works, result: Result) -> Iterator[str]:
