@@ -128,7 +128,7 @@ def test_words_stay_whole_where_the_terminal_is_narrow(
 
 
 @pytest.mark.parametrize(("ref", "published"), [("A8.force", "1.8 N"), ("A1", ""), (None, "")])
-def test_the_published_number_stands_below_the_row(
+def test_the_papers_number_stands_below_the_row(
     flown: Callable[[Result], None],
     capsys: pytest.CaptureFixture[str],
     ref: str | None,
