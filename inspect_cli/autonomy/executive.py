@@ -259,13 +259,16 @@ class Executive:
     def _begin_approach_when_seen(self, t_s: float) -> None:
         if self._inputs.surface_agreed_s < self._since_s + PAUSE_S:
             return
-        self._waiting_for_surface = False
         leg = self._plan.legs[self._leg]
         target = self._plan.targets[self.target]
+        seen = self._seen
+        if target.following is not None and (seen is None or not _is_good(seen, self._inputs)):
+            return
+        self._waiting_for_surface = False
         self._guidance.approach(t_s, target, -BEFORE_CONTACT_M, leg.speed_mps)
-        if target.following is not None and self._seen is not None:
+        if target.following is not None and seen is not None:
             # A surface that nobody described is aimed at by what is seen of it now.
-            self._guidance.observe(t_s, self._seen)
+            self._guidance.observe(t_s, seen)
 
     def _enter(self, t_s: float, mode: Mode, target: int) -> None:
         self.mode, self.target, self._since_s = mode, target, t_s
@@ -287,10 +290,21 @@ class Executive:
         self._judged.add(int(reading.target))
         self.readings.append(reading)
 
+    def _has_something_to_leave(self) -> bool:
+        """Whether the standoff leads away from the surface.
+
+        A following begins anywhere: before its surface is found or near, the standoff would lead
+        back into what nobody looked at, or forward.
+        """
+        if self.mode != Mode.APPROACH or self._plan.targets[self.target].following is None:
+            return self.mode in NEAR
+        near_m = self._plan.targets[self.target].standoff_m
+        return not self._waiting_for_surface and self._inputs.surface_distance_m < near_m
+
     def _abort(self, t_s: float, action: Action, reason: str) -> None:
         self.status, self.reason = "aborted", reason
         self.events.append(Event(t_s, "error", f"aborted: {reason}"))
-        if action == Action.RETREAT and self.mode in NEAR:
+        if action == Action.RETREAT and self._has_something_to_leave():
             target = self._plan.targets[self.target]
             speed = self._plan.legs[self._leg].speed_mps
             self._guidance.approach(t_s, target, -target.standoff_m, speed)
@@ -311,6 +325,11 @@ def posture_of(model: PostureModel) -> Posture:
 def _lower(posture: Posture, by_m: float) -> Posture:
     down = np.array([0.0, 0.0, by_m])
     return Posture(posture.p_WB - down, posture.q_WB, posture.arm_angle)
+
+
+def _is_good(seen: SurfaceEstimate, inputs: FlightInputs) -> bool:
+    """Whether the estimate, overwritten with each depth image, is the last one that agreed."""
+    return seen.valid == 1.0 and seen.t_s == inputs.surface_agreed_s
 
 
 def _check_place(reading: Reading, target: Target) -> None:

@@ -90,6 +90,7 @@ def _fly(
     with LogWriter(folder / LOG_NAME, _records(loaded.truth), lengths) as log:
         _attach(log, loaded, plan, seed)
         log.scene(0.0, plan)
+        _note_reliefs(log, structure)
         estimation = loaded.mission.estimation
         flight = Flight(vehicle, plan, loaded.truth, structure, seed, log, estimation)
         report = (lambda t_s: progress(t_s, plan.duration_s)) if progress else None
@@ -106,6 +107,16 @@ def _records(truth: TruthModel) -> list[type[Record]]:
     """The channels of a flight: without a rope, wind or cable there is nothing to say of them."""
     left_out = () if truth.loads_depend_on_the_flight else (TrueDisturbance,)
     return [record for record in CORE_RECORDS if record not in left_out]
+
+
+def _note_reliefs(log: LogWriter, structure: StructureTruth) -> None:
+    """Say in the log how true the heights are that stand for a mesh."""
+    for surface in structure.surfaces:
+        if surface.relief is not None:
+            pitch = max(surface.relief.row["pitch"][0])
+            departs_mm = 1e3 * surface.relief.deviation_m
+            text = f"truth: '{surface.name}' is a mesh, flown as heights every {pitch:.3g} m"
+            log.event(0.0, "info", f"{text} that depart from it by {departs_mm:.2g} mm at most")
 
 
 def _load(path: Path, platform: Path | None) -> tuple[Loaded, Plan | None]:

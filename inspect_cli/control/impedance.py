@@ -15,6 +15,7 @@ is where it enters. At rest in contact τ_e = R M̃ Rᵀ K̃ x̃.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -106,12 +107,14 @@ class Impedance:
         damping = (profile.damping_nspm or model.damping_nspm) + model.damping_nmsprad
         return cls(shaping_matrices(profile, R_BT), np.array(stiffness), np.array(damping))
 
-    def towards(self, other: Impedance, share: float) -> Impedance:
-        """The impedance a ``share`` of the way to another."""
-        return Impedance(
-            (1.0 - share) * self.shaping + share * other.shaping,
-            (1.0 - share) * self.stiffness + share * other.stiffness,
-            (1.0 - share) * self.damping + share * other.damping,
+    @classmethod
+    def mixed(cls, all_of_them: Sequence[Impedance], shares: Vector) -> Impedance:
+        """The mean of several, weighted by ``shares`` (n,) that add up to 1."""
+        given = [(one, share) for one, share in zip(all_of_them, shares, strict=True) if share]
+        return cls(
+            sum((share * one.shaping for one, share in given), np.zeros((2, 3, 3))),
+            sum((share * one.stiffness for one, share in given), np.zeros(6)),
+            sum((share * one.damping for one, share in given), np.zeros(6)),
         )
 
 
@@ -140,7 +143,8 @@ class ImpedanceController:
     """The law with the profiles of a platform; one call writes the wrench into a Command.
 
     ``Reference.impedance`` says which profile holds, by its place in the platform's file. The
-    first one that is asked for holds at once; a later change is blended in over ``BLEND_S``.
+    first one that is asked for holds at once; a later change is blended in over ``BLEND_S``,
+    also while an arm turns the tool.
     """
 
     def __init__(self, body: RigidBody, model: ControlModel, R_BT: Matrix, control_hz: int) -> None:
@@ -150,14 +154,14 @@ class ImpedanceController:
         self._blend_ticks = round(BLEND_S * control_hz)
         self._tick = self._blend_ticks
         self._chosen = -1
+        self._shares = self._shares_before = np.zeros(len(self._profiles))
         self.turn_tool(R_BT)
         self.weight_B = np.zeros(3)
 
     def turn_tool(self, R_BT: Matrix) -> None:
         """Follow an arm that turned its tool in B."""
         self._all = [Impedance.of(self._model, profile, R_BT) for profile in self._profiles]
-        if self._chosen >= 0:
-            self._now = self._before = self._all[self._chosen]
+        self._now = Impedance.mixed(self._all, self._shares)
 
     def update(self, estimate: Estimate, reference: Reference, command: Command) -> None:
         """Write ``command.wrench_B``."""
@@ -179,14 +183,19 @@ class ImpedanceController:
     def _choose(self, profile: int) -> None:
         """Follow the profile that the reference asks for."""
         if profile != self._chosen:
-            first = self._chosen < 0
-            self._before = self._all[profile] if first else self._now
-            self._now, self._chosen = self._before, profile
-            self._tick = self._blend_ticks if first else 0
-        if self._tick < self._blend_ticks:
-            self._tick += 1
+            # The first is blended in, too: in the one step that is left of its blend.
+            self._tick = self._blend_ticks - 1 if self._chosen < 0 else 0
+            self._shares_before, self._chosen = self._shares, profile
+        if self._tick == self._blend_ticks:
+            return
+        self._tick += 1
+        asked = np.eye(len(self._profiles))[profile]
+        if self._tick == self._blend_ticks:
+            self._shares = asked
+        else:
             share = self._tick / self._blend_ticks
-            self._now = self._before.towards(self._all[profile], share)
+            self._shares = (1.0 - share) * self._shares_before + share * asked
+        self._now = Impedance.mixed(self._all, self._shares)
 
 
 def steady_contact_force(

@@ -9,6 +9,7 @@ is one quintic, so nothing is lost by writing it as stretches.
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import replace
 
 import numpy as np
 from scipy.interpolate import make_interp_spline
@@ -25,7 +26,6 @@ from inspect_cli.spatial.rotations import quaternion_exp, quaternion_to_matrix
 KNOT_S = 0.1
 """Between the knots of the spline."""
 LEAST_KNOTS = 6
-BEND_SAMPLES = 400
 
 PostureAt = Callable[[float, float], Posture]
 """The posture whose tool is at the set-point of (u, v) m."""
@@ -35,19 +35,27 @@ def corrected(prim: Structured, planned: Aim, believed: Aim) -> Callable[[float,
     """The aim at each (u, v) m of a surface that is moved as its contact point was.
 
     The believed surface, PRIMITIVE (1,), is turned by the least rotation that brings the planned
-    normal onto the one that was seen, and shifted so that the contact points coincide.
+    normal onto the one that was seen, and shifted so that the contact points coincide. The tool
+    is carried along likewise, so that it does not turn over on a stroke that leads far round.
     """
-    axis = np.cross(planned.n_W, believed.n_W)
-    sine = float(np.linalg.norm(axis))
-    angle = float(np.arctan2(sine, planned.n_W @ believed.n_W))
-    turn = axis * (angle / sine) if sine > 0.0 else np.zeros(3)
-    R = quaternion_to_matrix(quaternion_exp(turn))
+    R = _least_rotation(planned.n_W, believed.n_W)
 
     def aim_at(u: float, v: float) -> Aim:
         p_WC = believed.p_WC + R @ (point_at(prim, 0, u, v) - planned.p_WC)
-        return believed.at(p_WC, R @ normal_at(prim, 0, u, v))
+        n_W = R @ normal_at(prim, 0, u, v)
+        carried = replace(believed, R_WT=_least_rotation(believed.n_W, n_W) @ believed.R_WT)
+        return carried.at(p_WC, n_W)
 
     return aim_at
+
+
+def _least_rotation(a: Vector, b: Vector) -> Matrix:
+    """R (3, 3) with R a = b for unit vectors (3,); where they are opposite, the identity."""
+    axis = np.cross(a, b)
+    sine = float(np.linalg.norm(axis))
+    if sine == 0.0:
+        return np.eye(3)
+    return quaternion_to_matrix(quaternion_exp(axis * (float(np.arctan2(sine, a @ b)) / sine)))
 
 
 class StrokePath:
@@ -78,7 +86,8 @@ class StrokePath:
         """The speed whose centripetal acceleration v² κ stays within the limit everywhere."""
         if len(self._s) < 4:
             return speed_mps
-        s = np.linspace(0.0, self._s[-1], BEND_SAMPLES)
+        # Between two points the second derivative is linear, so it peaks at one of them.
+        s = np.sort(np.concatenate([self._s, 0.5 * (self._s[1:] + self._s[:-1])]))
         d, dd = self._line(s, 1), self._line(s, 2)
         cross = np.abs(d[:, 0] * dd[:, 1] - d[:, 1] * dd[:, 0])
         bend = cross / np.maximum(np.linalg.norm(d, axis=1), 1e-9) ** 3

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from functools import partial
 
-from inspect_cli.metrics import force_sensor, pose_error, settling
+from inspect_cli.metrics import force_sensor, odometry_drift, pose_error, settling
 from inspect_cli.metrics.flight import Flight
 from inspect_cli.metrics.spec import MetricSpec
 from inspect_cli.records import Estimate, Reference, State, WallForce
@@ -57,6 +57,25 @@ def _pose_errors() -> dict[str, MetricSpec]:
                 f"{name} of the estimated attitude against {body}, RMS, {WAY}",
                 ESTIMATED,
             )
+    return specs | _expected_errors()
+
+
+def _expected_errors() -> dict[str, MetricSpec]:
+    specs = {
+        f"estimation.expected_rmse_{name}_m": MetricSpec(
+            "m",
+            partial(_of_axis, odometry_drift.expected_position_rmse, axis),
+            f"RMS error along {name}_W that the model of the odometry expects of the path, {WAY}",
+            (State, Reference),
+        )
+        for axis, name in enumerate(AXES)
+    }
+    specs["estimation.expected_rmse_yaw_rad"] = MetricSpec(
+        "rad",
+        odometry_drift.expected_yaw_rmse,
+        f"RMS error of yaw that the model of the odometry expects of the path, {WAY}",
+        (State, Reference),
+    )
     return specs
 
 

@@ -28,7 +28,7 @@ from inspect_cli.planning.feasibility import (
 from inspect_cli.planning.order import visiting_order
 from inspect_cli.planning.path import Stop, Way, find_way
 from inspect_cli.planning.points import ContactPoint, in_words, points_of_task
-from inspect_cli.planning.strokes import points_along, sliding_s, stroke_model
+from inspect_cli.planning.strokes import fault_of, points_along, sliding_s, slowed, stroke_model
 from inspect_cli.planning.visits import ContactVisit, HoldVisit, ServoVisit, StrokeVisit, Visit
 from inspect_cli.schema import plan
 from inspect_cli.schema.mission import Mission
@@ -172,10 +172,10 @@ class TraceErrand:
 
     def visit(self, situation: Situation, before: Stop) -> Visit | list[Reason]:
         """Touch its first point, follow the line, leave at the last; every place is checked."""
+        fault = fault_of(self.prim, self.stroke)
+        if fault:
+            return [Reason(fault, "draw smaller, or elsewhere")]
         points = points_along(self.prim, self.stroke, self.label, self.trace, self.impedance)
-        faults = [point.fault for point in points if point.fault]
-        if faults:
-            return [Reason(faults[0], "draw smaller, or elsewhere")]
         reasons: list[Reason] = []
         for first in touches(situation.capabilities, points[0], before.posture):
             found = self._attempt(situation, points, first, before)
@@ -207,6 +207,7 @@ class TraceErrand:
         assessment: Assessment,
     ) -> StrokeVisit:
         acceleration = situation.capabilities.max_acceleration_mps2
+        stroke = slowed(self.stroke, points, line, situation.capabilities)
         return StrokeVisit(
             first=points[0],
             last=points[-1],
@@ -214,8 +215,8 @@ class TraceErrand:
             leave=line[-1],
             way=way,
             along=tuple(touch.setpoint for touch in line[1:]),
-            stroke=self.stroke,
-            moving_s=sliding_s(self.stroke, acceleration),
+            stroke=stroke,
+            moving_s=sliding_s(stroke, acceleration),
             settle_s=self.trace.settle_s,
             assessment=assessment,
         )
@@ -325,7 +326,7 @@ def _line(
 def _worst(
     situation: Situation, points: Sequence[ContactPoint], line: Sequence[Touch]
 ) -> Assessment:
-    """The assessment along a stroke: of its places the tightest, with every reason once."""
+    """The assessment along a stroke: the least margin, the least gap, every reason once."""
     found = [
         assess(situation.capabilities, situation.scene, point, touch, situation.limits)
         for point, touch in zip(points, line, strict=True)
@@ -334,7 +335,8 @@ def _worst(
     reasons = [reason for one in found for reason in one.reasons]
     reasons += gap_reasons(between, situation.limits.clearance_m)
     tightest = min(found, key=lambda one: one.margins.thrust_n)
-    return replace(tightest, reasons=tuple(dict.fromkeys(reasons)))
+    gap = min([between, *(one.gap for one in found)], key=lambda one: one.structure_m)
+    return replace(tightest, gap=gap, reasons=tuple(dict.fromkeys(reasons)))
 
 
 def _unreachable(point: ContactPoint) -> Reason:

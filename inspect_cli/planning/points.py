@@ -82,7 +82,7 @@ def point_on(
         options=options,
         impedance=impedance,
         sensor=sensor,
-        fault=fault or _outside(prim, u, v),
+        fault=fault or outside(prim, u, v),
     )
 
 
@@ -119,7 +119,8 @@ def _projected(prim: Structured, p_W: Triple, tolerance_m: float) -> tuple[float
     return u, v, fault
 
 
-def _outside(prim: Structured, u: float, v: float) -> str:
+def outside(prim: Structured, u: float, v: float) -> str:
+    """Why a point at (u, v) m cannot be touched: it lies beyond the patch. Empty if it does not."""
     half_u, half_v = (float(x) for x in prim["half_size"][0])
     if abs(u) <= half_u + EDGE_M and abs(v) <= half_v + EDGE_M:
         return ""

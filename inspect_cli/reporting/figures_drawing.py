@@ -194,8 +194,8 @@ def _apart(flight: Flight, drawing: int) -> Iterator[Figure]:
     }
     yield Figure(
         f"drawing-{drawing + 1}-apart",
-        "How far two trials lie apart in the plane, at equal times since their slides began, along "
-        "the way of the reference. Strokes follow each other.",
+        "How far two trials lie apart in the plane, at equal progress along the reference. Strokes "
+        "follow each other.",
         "Distance in the plane between two trials along the drawing.",
         list(_apart_lines(found)),
         layout,

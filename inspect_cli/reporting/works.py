@@ -84,7 +84,7 @@ def kicker(works: Works) -> str:
     if works.contacts:
         parts.append("contact")
     if works.pulls:
-        parts.append("rope pulls in free flight")
+        parts.append("rope pulls in free flight" if works.poses else "rope pulls")
     elif works.poses:
         parts.append("holding a pose")
     if works.ground_truth:

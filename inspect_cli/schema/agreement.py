@@ -58,6 +58,9 @@ def _uneven_force_sensors(file: MissionFile, node: Node, platform: PlatformBase)
     measured = {n: s.force_sensor for n, s in file.truth.structure.items() if s.force_sensor}
     for k, (name, sensor) in enumerate(measured.items()):
         where = _place(node, ("truth", "structure", name, "force_sensor"))
+        shape = file.truth.structure[name].geometry
+        if shape is not None and shape.kind == "mesh":
+            problems.append(Problem("a mesh has no frame for a force sensor to measure in", where))
         if k > 0:
             problems.append(Problem("a second force sensor; one surface may carry one", where))
         if physics_hz % sensor.rate_hz:

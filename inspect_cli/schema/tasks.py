@@ -6,6 +6,8 @@ A kind that touches a surface of the structure names it by ``on``.
 
 from __future__ import annotations
 
+import math
+from itertools import pairwise
 from typing import Annotated, Literal
 
 from pydantic import Field, model_validator
@@ -13,8 +15,14 @@ from pydantic import Field, model_validator
 from inspect_cli.schema.base import Name, NonNegative, Positive, Strict, Triple
 
 MAX_POINTS = 10_000
+SHORTEST_M = 1e-4
+"""Lines that are shorter are marks of the pen, not lines."""
 
 Instrument = Literal["half_cell"]
+
+Coordinate = Annotated[float, Field(ge=-1000.0, le=1000.0)]
+Place = tuple[Coordinate, Coordinate, Coordinate]
+"""Somewhere to fly to: farther off than any battery lasts is a slip of the unit."""
 
 
 class Pressing(Strict):
@@ -70,7 +78,7 @@ class ContactPoints(ContactOptions):
 class Hold(Strict):
     """A pose in free air, held for a time."""
 
-    position_m: Triple
+    position_m: Place
     """Of O_b in W."""
     heading_deg: float = 0.0
     duration_s: Annotated[float, Field(gt=0, le=3600)]
@@ -108,11 +116,18 @@ class Trace(Pressing):
             raise ValueError("width_m belongs to an svg, and an svg needs it")
         return self
 
+    @model_validator(mode="after")
+    def _leads_somewhere(self) -> Trace:
+        corners = self.polyline_m or ()
+        if corners and all(math.dist(a, b) <= SHORTEST_M for a, b in pairwise(corners)):
+            raise ValueError(f"no edge of polyline_m is longer than {SHORTEST_M:g} m")
+        return self
+
 
 class ServoStart(Strict):
     """Where the vehicle is brought by hand: level, the tool about towards the surface."""
 
-    position_m: Triple
+    position_m: Place
     """Of O_b in W, as the vehicle believes to be there."""
     heading_deg: float = 0.0
 

@@ -12,7 +12,7 @@ from pydantic import Field, model_validator
 
 from inspect_cli.schema.base import Count, Name, NonNegative, Positive, Strict, Triple
 from inspect_cli.schema.disturbances import Disturbance, refuse_impossible
-from inspect_cli.schema.geometry import Displacement, Shape
+from inspect_cli.schema.geometry import Displacement, TrueShape
 
 
 class AnalyticSpot(Strict):
@@ -66,10 +66,11 @@ class ForceSensorModel(Strict):
 
 
 class TrueSurface(Strict):
-    """What one of the structure's surfaces really is."""
+    """What one of the structure's surfaces really is, or a surface that nobody knows of."""
 
-    geometry: Shape | None = None
-    """The true shape; without it, the shape that the planner believes in."""
+    geometry: TrueShape | None = None
+    """The true shape; without it, the shape that the planner believes in. A surface that the
+    structure does not name has to state it."""
     moved: Displacement = Displacement()
     """Turns and shifts the true shape, and the specimen with it."""
     absent: bool = False
@@ -88,6 +89,8 @@ class TruePlatform(Strict):
     """Scales mass and inertia of every body."""
     com_offset_m: Triple = (0.0, 0.0, 0.0)
     """Shifts the centre of mass of the core, in B."""
+    odometry_drift_mps: Triple = (0.0, 0.0, 0.0)
+    """What the odometry drifts in W all the time, at rest too, on top of its model."""
 
 
 class ProximityEffects(Strict):
@@ -102,7 +105,10 @@ class SensorFault(Strict):
     """A sensor that fails during the flight. Nothing flies on without its inertial unit."""
 
     sensor: Literal["tof", "pose", "odometry", "probe"]
-    fault: Literal["off", "nan"] = "off"
+    fault: Literal["off", "nan", "holes"] = "off"
+    """Silent, not a number, or (the depth camera alone) without a return in random patches."""
+    share: Annotated[float, Field(gt=0, lt=1)] | None = None
+    """Of the pixels that holes take from every image."""
     start_s: NonNegative = 0.0
     end_s: Positive | None = None
     """Without it, the fault lasts to the end of the flight."""
@@ -111,6 +117,16 @@ class SensorFault(Strict):
     def _lasts(self) -> SensorFault:
         if self.end_s is not None and self.end_s <= self.start_s:
             raise ValueError(f"end_s {self.end_s:g} must be after start_s {self.start_s:g}")
+        return self
+
+    @model_validator(mode="after")
+    def _only_images_have_holes(self) -> SensorFault:
+        if self.fault == "holes" and self.sensor != "tof":
+            raise ValueError(f"only the images of tof have holes; {self.sensor} can be off or nan")
+        if self.fault == "holes" and self.share is None:
+            raise ValueError("holes need a share of the pixels, such as share: 0.5")
+        if self.fault != "holes" and self.share is not None:
+            raise ValueError(f"share goes with fault: holes; {self.fault} takes everything")
         return self
 
 

@@ -6,14 +6,15 @@ numbers n_i,
 
     ψ ← ψ + √(σ_ψd² d + σ_ψθ² θ) n₁                  drift of the yaw
     p̂ ← p̂ + (1 + s) R_z(ψ) Δ + σ_p √d n₂             drift of the position
+    p̂ ← p̂ + u Δt                                   a steady drift, where the truth states one
     p_m = p̂ + σ_w n₃
     R_m = R_z(ψ) R_WB Exp((α_x, α_y, 0)) Exp(σ_θ n₄)
 
 The variance of the random walks so is σ² times the distance travelled, whatever the rate is, and
-nothing drifts while the body is at rest. Gravity is observed: roll and pitch have the constant
-misalignment α of the inertial unit and white noise, but no drift. A wrong yaw bends the path, as
-dead reckoning does. Distance is taken between samples, along the chord: at 30 Hz a path of radius
-0.1 m flown at 1 m/s is 0.5 % longer.
+but for u, which stands for a place with poor features, nothing drifts while the body is at rest.
+Gravity is observed: roll and pitch have the constant misalignment α of the inertial unit and white
+noise, but no drift. A wrong yaw bends the path, as dead reckoning does. Distance is taken between
+samples, along the chord: at 30 Hz a path of radius 0.1 m flown at 1 m/s is 0.5 % longer.
 
 s ~ N(0, ``scale_error``²) and α_i ~ N(0, ``tilt_error_rad``²) are drawn once per run. Source of
 the form: drift of visual odometry is stated, and evaluated, per distance travelled (A. Geiger et
@@ -28,6 +29,7 @@ import numpy as np
 
 from inspect_cli.compiled import kernel
 from inspect_cli.records import Odometry, State
+from inspect_cli.schema.base import Triple
 from inspect_cli.schema.positioning import OdometryModel
 from inspect_cli.sensing.instrument import Noise
 from inspect_cli.sensing.pose import measure_pose
@@ -70,9 +72,18 @@ def drift(
 
 
 class OdometrySensor:
-    """Pose of the body, by adding up its motion from the first sample on."""
+    """Pose of the body, by adding up its motion from the first sample on.
 
-    def __init__(self, model: OdometryModel, rng: np.random.Generator) -> None:
+    ``drift_mps`` (3,) is u in W.
+    """
+
+    def __init__(
+        self,
+        model: OdometryModel,
+        rng: np.random.Generator,
+        drift_mps: Triple = (0.0, 0.0, 0.0),
+    ) -> None:
+        self._drift_mps = np.array(drift_mps)
         self.measurement = Odometry.create()
         self._walks = np.array([model.position_walk, model.yaw_walk_moved, model.yaw_walk_turned])
         self._white = np.array([model.position_noise_m, model.attitude_noise_rad])
@@ -84,6 +95,7 @@ class OdometrySensor:
         self._noise = Noise(rng, 10)
         self._last = np.zeros(7)
         self._believed = np.zeros(4)
+        self._sampled_s = 0.0
         self._started = False
 
     def sample(self, state: State) -> None:
@@ -92,8 +104,11 @@ class OdometrySensor:
         if not self._started:
             self._believed[:3] = self._last[:3] = p
             self._last[3:] = q
+            self._sampled_s = state.t_s
             self._started = True
         noise = self._noise.draw()
+        self._believed[:3] += self._drift_mps * (state.t_s - self._sampled_s)
+        self._sampled_s = state.t_s
         drift(p, q, self._last, self._walks, self._scale, noise[:4], self._believed)
         turned = quaternion_multiply(
             yaw_turn(self._believed[3]), quaternion_multiply(q, self._tilt)

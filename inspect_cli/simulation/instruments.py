@@ -6,6 +6,7 @@ import numpy as np
 
 from inspect_cli.interfaces import Sensor
 from inspect_cli.records import Probe, State, TrueContact, WallForce
+from inspect_cli.schema.base import Triple
 from inspect_cli.schema.positioning import Estimation
 from inspect_cli.schema.vehicle import PlatformBase
 from inspect_cli.sensing.half_cell import HalfCellProbe
@@ -16,9 +17,9 @@ from inspect_cli.sensing.tof import TofCamera
 from inspect_cli.sensing.wall_force import WallForceSensor
 from inspect_cli.simulation.randomness import component_rng
 from inspect_cli.spatial.arrays import Vector
-from inspect_cli.spatial.primitives import plane
-from inspect_cli.truth.faults import Faults, spoil
+from inspect_cli.truth.faults import Faults, punch_holes, spoil
 from inspect_cli.truth.geometry import StructureTruth
+from inspect_cli.truth.solids import on_the_ground
 
 
 class Instruments:
@@ -34,15 +35,17 @@ class Instruments:
         faults: Faults,
         seed: int,
         estimation: Estimation = "external",
+        odometry_drift_mps: Triple = (0.0, 0.0, 0.0),
     ) -> None:
         sensors = platform.sensors
-        ground = plane(np.zeros(3), np.array([0.0, 0.0, 1.0]), (200.0, 200.0))
-        seen = np.concatenate([structure.primitives, ground])
+        seen = on_the_ground(structure.solids)
         self.imu = ImuSensor(sensors.imu, platform.rates.imu_hz, component_rng(seed, "imu"))
         self.odometry: OdometrySensor | None = None
         self.pose: PoseSensor | OdometrySensor
         if estimation == "onboard" and sensors.odometry is not None:
-            self.odometry = OdometrySensor(sensors.odometry, component_rng(seed, "odometry"))
+            self.odometry = OdometrySensor(
+                sensors.odometry, component_rng(seed, "odometry"), odometry_drift_mps
+            )
             self.pose = self.odometry
         else:
             self.pose = PoseSensor(sensors.pose, component_rng(seed, "pose"))
@@ -51,6 +54,7 @@ class Instruments:
         self.probe = HalfCellProbe(sensors.half_cell, component_rng(seed, "probe"))
         self.wall = _wall_sensor(structure, seed)
         self._faults = faults
+        self._holes = component_rng(seed, "tof holes")
 
     def sample_imu(self, state: State) -> bool:
         """An inertial sample."""
@@ -66,7 +70,13 @@ class Instruments:
         if fault is not None and fault.fault == "off":
             return False
         self.tof.sample(state)
-        if fault is not None:
+        if fault is None:
+            return True
+        if fault.share is not None:
+            model = self.tof.model
+            image = self.tof.points_D.reshape(model.rows, model.columns, 3)
+            punch_holes(image, fault.share, self._holes)
+        else:
             self.tof.points_D[...] = np.nan
         return True
 
@@ -98,6 +108,6 @@ class Instruments:
 def _wall_sensor(structure: StructureTruth, seed: int) -> WallForceSensor | None:
     for index, surface in enumerate(structure.surfaces):
         if surface.force_sensor is not None:
-            primitive = structure.primitives[index : index + 1]
+            primitive = structure.solids.primitives[index : index + 1]
             return WallForceSensor(surface.force_sensor, primitive, component_rng(seed, "wall"))
     return None

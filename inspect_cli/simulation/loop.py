@@ -68,14 +68,29 @@ class Flight:
         rates = platform.rates
         model = build_world(vehicle, truth.platform, structure)
         radius_m = vehicle.actuators.rotor_radius_m
-        proximity = Proximity(truth.proximity, structure.primitives, radius_m)
+        proximity = Proximity(truth.proximity, structure.solids, radius_m)
         gusts = component_rng(seed, "wind")
         disturbances = Disturbances(truth.disturbances, gusts, rates.control_hz)
-        self.plant = Plant(model, vehicle, lengths, disturbances, proximity, rates.control_hz)
+        self.plant = Plant(
+            model,
+            vehicle,
+            lengths,
+            structure.solids,
+            disturbances,
+            proximity,
+            rates.control_hz,
+        )
         self.plan = plan
         self.contact = ContactTruth(structure)
         faults = Faults(truth.faults)
-        self.instruments = Instruments(platform, structure, faults, seed, estimation)
+        self.instruments = Instruments(
+            platform,
+            structure,
+            faults,
+            seed,
+            estimation,
+            truth.platform.odometry_drift_mps,
+        )
         self.stack = vehicle.flight_stack(estimation)
         believed = {surface.name: primitive_of(surface.shape) for surface in plan.surfaces}
         self.guidance = Pursuit(vehicle.capabilities, posture_of(plan.start), believed)

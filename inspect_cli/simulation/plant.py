@@ -2,7 +2,8 @@
 
 Between two ticks the commands are held, as a flight controller holds them. The plant turns a
 Command into MuJoCo's controls (rate limit of the joints, rising or falling lag of the rotors,
-thrust factors of near surfaces), applies the disturbances, steps, and reads the true State.
+thrust factors of near surfaces), applies the disturbances, keeps the plates of hollow and irregular
+surfaces below the tip, steps, and reads the true State.
 """
 
 from __future__ import annotations
@@ -13,11 +14,13 @@ import numpy as np
 from inspect_cli.compiled import kernel
 from inspect_cli.interfaces import Posture
 from inspect_cli.records import Command, Lengths, State
+from inspect_cli.simulation.plates import Plates
 from inspect_cli.simulation.world import WALL_SENSOR
 from inspect_cli.spatial.arrays import Matrix, Structured, Vector
 from inspect_cli.spatial.rotations import cross, matrix_to_quaternion, rotate_back
 from inspect_cli.truth.disturbances import Disturbances, Motion
 from inspect_cli.truth.proximity import Proximity
+from inspect_cli.truth.solids import Solids
 from inspect_cli.vehicles.kinds import Vehicle
 
 
@@ -110,6 +113,7 @@ class Plant:
         model: mujoco.MjModel,
         vehicle: Vehicle,
         lengths: Lengths,
+        solids: Solids,
         disturbances: Disturbances,
         proximity: Proximity,
         control_hz: int,
@@ -123,6 +127,8 @@ class Plant:
         self._n_arm = lengths.get("n_arm", 0)
         self._actuators = vehicle.actuators
         self._max_turn = vehicle.actuators.joint_rate_radps / control_hz
+        self._plates = Plates(model, self.data, solids)
+        self._steps_per_placing = max(round(1.0 / (control_hz * model.opt.timestep)), 1)
         self.disturbances = disturbances
         self._proximity = proximity
         self._hubs = model.actuator_trnid[: self._n_rotors, 0].copy()
@@ -144,6 +150,7 @@ class Plant:
     def place(self, posture: Posture) -> None:
         """Put the vehicle somewhere at rest."""
         mujoco.mj_resetData(self.model, self.data)
+        self._plates.reset()
         self.data.qpos[:3] = posture.p_WB
         self.data.qpos[3:7] = posture.q_WB
         # The arm's joints come last, and so do their servos: they hold what they stand at.
@@ -216,8 +223,18 @@ class Plant:
             )
 
     def step(self, steps: int) -> None:
-        """Let time pass."""
-        mujoco.mj_step(self.model, self.data, steps)
+        """Let time pass; plates are placed at the control rate or more often."""
+        if not self._plates.any:
+            mujoco.mj_step(self.model, self.data, steps)
+            return
+        done = 0
+        while done < steps:
+            if done:
+                mujoco.mj_kinematics(self.model, self.data)  # as ``observe`` left them at first
+            self._plates.follow()
+            stretch = min(self._steps_per_placing, steps - done)
+            mujoco.mj_step(self.model, self.data, stretch)
+            done += stretch
 
     @property
     def diverged(self) -> str:

@@ -52,6 +52,17 @@ def test_a_lag_in_time_counts_as_the_way_gone_meanwhile() -> None:
     assert np.all(np.diff(repeat.arc_m) >= 0.0)
 
 
+def test_a_trial_that_begins_later_draws_the_same() -> None:
+    flight = strokes()
+    rows = rows_of(flight, 1, Mode.SLIDE)
+    late = np.maximum(np.arange(len(rows)) - 8, 0)
+    for record in (State, Reference):
+        places = flight.rows(record)["p_WT"]
+        places[rows] = places[rows][late]
+    shift(flight, 1, [0.0, 0.0, 0.002])
+    assert value(flight, "drawing.repeat_rms_m") == pytest.approx(0.002, abs=2e-6)
+
+
 def test_the_worst_pair_of_the_worst_part_counts() -> None:
     flight = strokes(trials=3, parts=2)  # targets: trial 0 parts 0, 1; trial 1 ...
     shift(flight, 1, [0.0, 0.001, 0.0])
@@ -80,8 +91,8 @@ def test_what_was_not_drawn_is_not_measured() -> None:
     assert "no stroke to draw" in metric(nine_points(), "drawing.repeat_rms_m").why
     flight = strokes()
     rows = rows_of(flight, 1, Mode.SLIDE)
-    flight.rows(Reference)["mode"][rows[100:]] = Mode.HOVER
-    assert "did not last equally long" in metric(flight, "drawing.repeat_rms_m").why
+    flight.rows(Reference)["mode"][rows[300:]] = Mode.HOVER
+    assert "not equally long" in metric(flight, "drawing.repeat_rms_m").why
     flight.rows(Reference)["mode"][rows] = Mode.HOVER
     assert "never slid along" in metric(flight, "drawing.tracking_rms_m").why
 

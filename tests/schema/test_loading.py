@@ -198,7 +198,8 @@ def test_the_resolved_mission_survives_json(campaign: Path) -> None:
             [
                 "m.yaml:23:5: truth.structure.wahl: "
                 "the truth of a surface that is not there: 'wahl'\n"
-                "    did you mean 'wall'? choices: wall, tank"
+                "    did you mean 'wall'? choices: wall, tank; "
+                "one that only the truth knows states its geometry"
             ],
         ),
         (
@@ -421,3 +422,38 @@ def test_the_campaign_is_the_folder_that_holds_missions(campaign: Path, tmp_path
     deep = campaign / "missions" / "walls" / "m.yaml"
     assert campaign_root(deep) == campaign.resolve()
     assert campaign_root(tmp_path / "m.yaml") == tmp_path.resolve()
+
+
+def test_the_truth_may_add_a_surface_that_states_its_geometry(campaign: Path) -> None:
+    (campaign / "missions" / "scans" / "vault.ply").write_text("not read yet")
+    mission = campaign / "missions" / "m.yaml"
+    text = mission.read_text()
+    added = "    vault: {geometry: {kind: mesh, file: scans/vault.ply}, friction: 0.3}\n    wall:\n"
+    mission.write_text(text.replace("    wall:\n", added))
+    loaded = load_mission(mission)
+    shape = loaded.truth.structure["vault"].geometry
+    assert shape is not None
+    assert shape.kind == "mesh"
+    assert shape.file == "missions/scans/vault.ply"  # relative to the campaign
+    assert "vault" not in [surface.name for surface in loaded.mission.structure]
+
+
+@pytest.mark.parametrize(
+    ("geometry", "message"),
+    [
+        ("{kind: mesh, file: scans/none.ply}", "structure.vault.geometry.file: no such file"),
+        ("{kind: mesh, file: ../../x.ply}", "geometry.file: leads out of the campaign folder"),
+        ("{kind: mesh}", "structure.vault.geometry: missing key 'file'"),
+        ("{kind: mesh, file: scans/tank.ply, pitch_m: 0}", "pitch_m: must be at least 0.002"),
+        ("{kind: msh, file: scans/tank.ply}", "choices: plane, sphere, cylinder, mesh"),
+    ],
+)
+def test_a_spoiled_mesh_of_the_truth(refusal: Refusal, geometry: str, message: str) -> None:
+    found = "\n".join(refusal("    wall:\n", f"    vault: {{geometry: {geometry}}}\n    wall:\n"))
+    assert message in found
+
+
+def test_no_planner_may_believe_in_a_mesh(refusal: Refusal) -> None:
+    found = "\n".join(refusal("kind: plane", "kind: mesh"))
+    assert "mesh" in found
+    assert "choices: plane, sphere, cylinder" in found

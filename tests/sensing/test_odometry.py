@@ -198,3 +198,16 @@ def test_the_filter_takes_every_pose_and_is_consistent_with_the_drifting_frame()
 
 def test_the_filter_gives_up_after_as_long_a_time_as_with_a_tracker() -> None:
     assert ErrorStateFilter(IMU, OdometryModel(**FLOWN), 250, 30).restart_after == 6
+
+
+def test_a_steady_drift_moves_what_it_believes_at_rest_too() -> None:
+    quiet = dict.fromkeys(OdometryModel.model_fields, 0.0)
+    sensor = OdometrySensor(
+        OdometryModel(**quiet), np.random.Generator(np.random.SFC64(1)), (0.002, 0.0, -0.001)
+    )
+    state = State.create()
+    state.q_WB[0] = 1.0
+    for k in range(301):
+        state.t_s = 1.0 + k / 30.0
+        sensor.sample(state)
+    np.testing.assert_allclose(sensor.measurement.p_WB, [0.02, 0.0, -0.01], atol=1e-12)

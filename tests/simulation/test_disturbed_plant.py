@@ -126,9 +126,9 @@ def test_an_articulated_arm_is_turned_by_what_pulls_at_its_tip(vehicle: Vehicle)
     model = build_world(jointed, TruePlatform(), structure)
     load = Disturbances([ROPE, WIND], np.random.default_rng(0), 250)
     calm = Proximity(
-        ProximityEffects(ground=False, ceiling=False, wall=False), structure.primitives, 0.1
+        ProximityEffects(ground=False, ceiling=False, wall=False), structure.solids, 0.1
     )
-    plant = Plant(model, jointed, vehicle.capabilities.lengths, load, calm, 250)
+    plant = Plant(model, jointed, vehicle.capabilities.lengths, structure.solids, load, calm, 250)
     placed(plant, [0.0, 0.0, 5.0], TILTED)
     plant.data.joint("arm").qpos[:] = 0.4
     held(plant, 0.0)

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import mujoco
 import numpy as np
 import pytest
@@ -39,7 +41,7 @@ VAULT = CylinderShape(
 def vehicle_with_physics_at(physics_hz: int) -> TiltRotor:
     platform = vehicle_at(90.0).platform
     rates = platform.rates.model_copy(update={"physics_hz": physics_hz})
-    vehicle = build_vehicle(platform.model_copy(update={"rates": rates}), "contact_ndt")
+    vehicle = build_vehicle(platform.model_copy(update={"rates": rates}))
     assert isinstance(vehicle, TiltRotor)
     return vehicle
 
@@ -48,8 +50,7 @@ def measured(shape: Shape) -> StructureTruth:
     """One surface with a force sensor."""
     plain = structure_of([shape])
     (surface,) = plain.surfaces
-    sensed = type(surface)(surface.name, shape, surface.friction, None, ForceSensorModel())
-    return StructureTruth((sensed,), plain.primitives)
+    return StructureTruth((replace(surface, force_sensor=ForceSensorModel()),), plain.solids)
 
 
 def plant_before(structure: StructureTruth, physics_hz: int = 1000) -> Plant:
@@ -57,8 +58,10 @@ def plant_before(structure: StructureTruth, physics_hz: int = 1000) -> Plant:
     vehicle = vehicle_with_physics_at(physics_hz)
     model = build_world(vehicle, TruePlatform(), structure)
     model.opt.gravity[:] = 0.0
-    proximity = Proximity(CALM, structure.primitives, vehicle.actuators.rotor_radius_m)
-    return Plant(model, vehicle, vehicle.capabilities.lengths, Disturbances(()), proximity, 250)
+    proximity = Proximity(CALM, structure.solids, vehicle.actuators.rotor_radius_m)
+    calm = Disturbances((), np.random.default_rng(0), 250)
+    lengths = vehicle.capabilities.lengths
+    return Plant(model, vehicle, lengths, structure.solids, calm, proximity, 250)
 
 
 def push(plant: Plant, force_W: Array, steps: int) -> None:

@@ -7,13 +7,12 @@ from collections.abc import Callable
 import pytest
 
 from inspect_cli.schema.mission import (
-    ContactGrid,
     Mission,
     Start,
     StructureSurface,
     SurfaceSource,
-    Task,
 )
+from inspect_cli.schema.tasks import ContactGrid, Task
 
 MissionOn = Callable[..., Mission]
 
