@@ -41,6 +41,9 @@ def test_a_number_answers_a_row_or_one_of_its_metrics() -> None:
     assert number_of("A7.slide", "slide.gaps") == ""
     assert number_of(None, "slide.speed_mean_mps") == ""
     assert published_of("Z1") is None
+    row = PUBLISHED["A9.force"]
+    assert row.cited("force_sensor.rmse_fy_n") == "0.91 N (§\u00a0V-F, Table IV)"
+    assert row.cited("contact.force_peak_n").startswith(row.words)
 
 
 @pytest.mark.parametrize("ref", ["A8.force", None])
