@@ -4,12 +4,15 @@ Only what lies in the plane of the surface counts: an error e becomes e − (e·
 outward normal n at the tip, or the planned one where the log does not know it. Across the surface
 the set-point lies behind it on purpose.
 
-Two trials of a stroke have the same reference as a function of the time τ since their slides
-began, so they are compared at equal τ:
+Two trials of a stroke have the same reference, but for what the camera corrected of the surface
+and for the moment at which it begins to move. So they are compared at equal progress σ of the
+reference:
 
-    d(τ) = |P (p_a(τ) − p_b(τ))|, P = 1 − n nᵀ
+    d(σ) = |P (p_a(σ) − p_b(σ))|, P = 1 − n nᵀ, σ(τ) = s(τ) + ε τ
 
-with the true tip p of trial b interpolated linearly to the ticks of trial a.
+with the reference's way s along the surface since the slide began, τ ago. ε = 1 mm/s orders the
+rows in which it rests at a corner by time. The true tip p of trial b is interpolated linearly to
+the rows of trial a.
 
 Source of the questions: Bodie et al., "An Omnidirectional Aerial Manipulation Platform for
 Contact-Based Inspection", section V-C (ledger rows A6).
@@ -28,8 +31,10 @@ from inspect_cli.records import Mode, TrueContact
 from inspect_cli.schema.plan import Stroke, Target
 from inspect_cli.spatial.arrays import Points, Vector
 
-SAME_LENGTH_S = 0.1
-"""Slides that differ by more are not the same stroke: one of them was cut short."""
+CREEP_MPS = 0.001
+"""ε; two trials that begin to move 0.1 s apart are compared 0.1 mm apart."""
+SAME_WAY = 0.02
+"""Ways that differ by a larger share are not the same stroke: one of them was cut short."""
 
 
 @dataclass(frozen=True)
@@ -115,16 +120,23 @@ def repeats(flight: Flight) -> list[Repeat]:
 
 def _repeat(flight: Flight, first: Target, second: Target) -> Repeat:
     rows_a, rows_b = slide_rows(flight, first), slide_rows(flight, second)
-    times, tips = flight.state["t_s"], flight.state["p_WT"]
-    tau_a, tau_b = times[rows_a] - times[rows_a[0]], times[rows_b] - times[rows_b[0]]
-    if abs(tau_a[-1] - tau_b[-1]) > SAME_LENGTH_S:
-        raise NotMeasured(f"strokes {first.label} and {second.label} did not last equally long")
-    common = tau_a <= tau_b[-1]
-    rows_a, tau_a = rows_a[common], tau_a[common]
-    again = np.column_stack([np.interp(tau_a, tau_b, tips[rows_b, k]) for k in range(3)])
     n_W = normals(flight, first, rows_a)
-    apart = np.linalg.norm(along_surface(tips[rows_a] - again, n_W), axis=1)
-    return Repeat(first, second, way_along(flight.reference["p_WT"][rows_a], n_W), apart)
+    way_a = way_along(flight.reference["p_WT"][rows_a], n_W)
+    way_b = way_along(flight.reference["p_WT"][rows_b], normals(flight, second, rows_b))
+    if abs(way_a[-1] - way_b[-1]) > SAME_WAY * max(way_a[-1], way_b[-1]):
+        raise NotMeasured(f"strokes {first.label} and {second.label} are not equally long")
+    progress_a, progress_b = _progress(flight, rows_a, way_a), _progress(flight, rows_b, way_b)
+    tips = flight.state["p_WT"]
+    again = [np.interp(progress_a, progress_b, tips[rows_b, k]) for k in range(3)]
+    apart = along_surface(tips[rows_a] - np.column_stack(again), n_W)
+    return Repeat(first, second, way_a, np.linalg.norm(apart, axis=1))
+
+
+def _progress(flight: Flight, rows: Rows, way_m: Vector) -> Vector:
+    """σ, (n,) m, which grows from row to row."""
+    times = flight.state["t_s"][rows]
+    grown: Vector = way_m + CREEP_MPS * (times - times[0])
+    return grown
 
 
 def repeat_rms(flight: Flight) -> float:

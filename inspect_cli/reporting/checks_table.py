@@ -46,7 +46,7 @@ def _check_row(check: Check, *, published: bool, remarked: bool) -> list[str]:
     return [
         joined(meaning(check.metric), Markup(" "), element("code", check.metric)),
         check.ref or NOTHING,
-        *([known.cited if known else NOTHING] if published else []),
+        *([known.cited(check.metric) if known else NOTHING] if published else []),
         bounds(check.min, check.max),
         significant(check.value),
         unit_shown(check.unit),

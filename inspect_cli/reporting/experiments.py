@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterator
+
+import numpy as np
 
 from inspect_cli.log.reader import RunLog
-from inspect_cli.metrics.flight import Flight
-from inspect_cli.records import Record, Reference, State, TrueContact
+from inspect_cli.metrics.flight import Flight, NotMeasured
 from inspect_cli.reporting.figure import drawn
 from inspect_cli.reporting.figures_drawing import course_figures, drawing_figures, drawings_of
 from inspect_cli.reporting.figures_ground_truth import (
@@ -18,16 +19,14 @@ from inspect_cli.reporting.figures_pulls import pull_figures, pull_phases, pull_
 from inspect_cli.reporting.figures_servoing import servoing_figures, slides_of
 from inspect_cli.reporting.markup import Markup, element, joined
 from inspect_cli.reporting.page import Section
-from inspect_cli.reporting.rows import rows_of
+from inspect_cli.reporting.table import definitions, number
 from inspect_cli.reporting.tables import metrics_table
 from inspect_cli.reporting.timeline import Timeline
 from inspect_cli.reporting.works import Works
 from inspect_cli.schema.plan import Plan
 from inspect_cli.schema.result import Result
 
-NOT_FLOWN = (
-    "There is nothing to draw: the flight never got there, or its log does not hold the truth."
-)
+NOT_FLOWN = "There is nothing to draw: the flight never got there."
 
 
 def experiment_sections(
@@ -52,30 +51,43 @@ def experiment_sections(
 def _pulls(log: RunLog, result: Result) -> Markup:
     return joined(
         drawn(pull_figures(log, pull_phases(log)), side_by_side=True),
-        pull_table(Flight(log)),
+        _or_reason(lambda: pull_table(Flight(log))),
         metrics_table("Pulls at the cord; of several the least favourable.", result, ("pull",)),
     )
 
 
 def _drawing(log: RunLog, result: Result, plan: Plan) -> Markup:
-    numbers = drawings_of(plan) if _has(log, (State, Reference)) else []
-    flight = Flight(log)
-    shown = [
-        joined(
-            element("h3", f"Drawing {number + 1}") if len(numbers) > 1 else "",
-            drawn(drawing_figures(flight, number)),
-            drawn(course_figures(flight, number), side_by_side=True),
+    def shown() -> Markup:
+        flight, drawings = Flight(log), drawings_of(plan)
+        return joined(
+            *(
+                joined(
+                    element("h3", f"Drawing {k + 1}") if len(drawings) > 1 else "",
+                    drawn(drawing_figures(flight, drawing)),
+                    drawn(course_figures(flight, drawing), side_by_side=True),
+                )
+                for k, drawing in enumerate(drawings)
+            )
         )
-        for number in numbers
-    ]
+
     return joined(_or_reason(shown), metrics_table("Drawing.", result, ("drawing",)))
 
 
 def _servoing(log: RunLog, result: Result) -> Markup:
-    flight = Flight(log)
-    found = slides_of(flight) if _has(log, (State, Reference, TrueContact)) else []
-    shown = [drawn(servoing_figures(flight, k + 1, slide)) for k, slide in enumerate(found)]
-    return joined(_or_reason(shown), metrics_table("Depth servoing.", result, ("slide",)))
+    def shown() -> Markup:
+        flight = Flight(log)
+        figures = (servoing_figures(flight, k + 1, s) for k, s in enumerate(slides_of(flight)))
+        return joined(*(drawn(pair) for pair in figures))
+
+    drift = result.metrics.get("estimation.drift_at_first_contact_m")
+    off = None if drift is None or drift.value is None else 1e3 * drift.value
+    return joined(
+        _or_reason(shown),
+        definitions([("Drift of the estimate at the first touch", f"{number(off, 1)} mm")])
+        if off is not None
+        else "",
+        metrics_table("Depth servoing.", result, ("slide",)),
+    )
 
 
 def _ground_truth(log: RunLog, result: Result, timeline: Timeline) -> Markup:
@@ -89,11 +101,12 @@ def _ground_truth(log: RunLog, result: Result, timeline: Timeline) -> Markup:
     )
 
 
-def _has(log: RunLog, records: Iterable[type[Record]]) -> bool:
-    return all(rows_of(log, record) is not None for record in records)
-
-
-def _or_reason(shown: Sequence[Markup]) -> Markup:
+def _or_reason(build: Callable[[], Markup]) -> Markup:
     """What is shown, or why there is nothing to see."""
-    whole = joined(*shown)
-    return whole or element("p", NOT_FLOWN)
+    try:
+        # The states of a diverged flight overflow; what is not finite leaves gaps.
+        with np.errstate(all="ignore"):
+            shown = build()
+    except NotMeasured as reason:
+        return element("p", f"There is nothing to draw: {reason}.")
+    return shown or element("p", NOT_FLOWN)

@@ -15,6 +15,7 @@ from inspect_cli.metrics.drawing import Repeat, repeats
 from inspect_cli.metrics.flight import Flight, NotMeasured, Rows
 from inspect_cli.records import Estimate, Mode
 from inspect_cli.reporting.figure import Figure, Json, numbers
+from inspect_cli.reporting.figures_scene import FAR_M
 from inspect_cli.reporting.palette import REFERENCE, LineStyle, trial_style
 from inspect_cli.reporting.rows import attitude_difference_mrad
 from inspect_cli.reporting.timeline import (
@@ -67,17 +68,15 @@ def drawings_of(plan: Plan) -> list[int]:
 
 
 def trials_of(flight: Flight, drawing: int) -> list[Trial]:
-    """The trials of a drawing, strokes that never touched left out."""
+    """The trials of a drawing, strokes that were never slid along left out."""
     strokes = [t for t in flight.plan.targets if t.stroke and t.stroke.drawing == drawing]
     trials = []
     for k in sorted({t.stroke.trial for t in strokes if t.stroke}):
         own = [t for t in strokes if t.stroke and t.stroke.trial == k]
-        drawn = [(t, flight.contact_rows(t.index)) for t in own]
-        touched = [(t, rows) for t, rows in drawn if len(rows)]
-        if touched:
-            sliding = tuple(_sliding(flight, t) for t, _ in touched)
-            targets, contacts = zip(*touched, strict=True)
-            trials.append(Trial(k, targets, sliding, contacts))
+        tried = [(t, _sliding(flight, t), flight.contact_rows(t.index)) for t in own]
+        drawn = [(t, slid, held) for t, slid, held in tried if len(slid) and len(held)]
+        if drawn:
+            trials.append(Trial(k, *zip(*drawn, strict=True)))
     return trials
 
 
@@ -117,7 +116,7 @@ def _in_the_plane(flight: Flight, drawing: int, trials: Sequence[Trial]) -> Figu
     everywhere = np.vstack(
         [_uv(prim, flight.state["p_WT"], rows) for t in trials for rows in t.sliding]
     )
-    low, high = everywhere.min(axis=0), everywhere.max(axis=0)
+    low, high = extent(everywhere)
     room = 0.06 * float(max(high - low))
     width, height = np.maximum(high - low, 0.02) + 2.0 * room
     layout: Json = {
@@ -146,6 +145,18 @@ def _in_the_plane(flight: Flight, drawing: int, trials: Sequence[Trial]) -> Figu
         FRAME_PX + int(np.clip(WIDTH_PX * height / width, 220.0, 560.0)),
         slope=float(height / width),
     )
+
+
+def extent(points: Points) -> tuple[Vector, Vector]:
+    """Least and largest coordinates of points (n, m); a diverged flight's infinities left out.
+
+    Raises:
+        NotMeasured: there is nothing that could be drawn.
+    """
+    kept = points[np.all(np.abs(np.nan_to_num(points, nan=np.inf)) < FAR_M, axis=1)]
+    if len(kept) == 0:
+        raise NotMeasured("the log holds no place that could be drawn")
+    return kept.min(axis=0), kept.max(axis=0)
 
 
 def _uv(prim: np.ndarray, p_W: Points, rows: Rows) -> Points:
@@ -183,8 +194,8 @@ def _apart(flight: Flight, drawing: int) -> Iterator[Figure]:
     }
     yield Figure(
         f"drawing-{drawing + 1}-apart",
-        "How far two trials lie apart in the plane, at equal times since their slides began, along "
-        "the way of the reference. Strokes follow each other.",
+        "How far two trials lie apart in the plane, at equal progress along the reference. Strokes "
+        "follow each other.",
         "Distance in the plane between two trials along the drawing.",
         list(_apart_lines(found)),
         layout,

@@ -35,6 +35,7 @@ from inspect_cli.reporting.timeline import Line, Panel, Timeline, alike, stacked
 from inspect_cli.schema.result import Result
 
 PANEL_PX = 84
+AGAINST_THE_BODY = "as a rotation vector about the axes of the true body, not of the tracker's."
 
 
 def has_ground_truth(log: RunLog) -> bool:
@@ -51,8 +52,8 @@ def position_figure(log: RunLog, timeline: Timeline) -> Iterator[Figure]:
         return
     yield stacked(
         "ground-truth-x",
-        "Position of the body along x of the world: set-point, estimate and truth. In contact, "
-        "shaded, the wall blocks the motion.",
+        "Position of the body along x of the world: set-point, estimate and truth. Shaded: "
+        "contact, in which the surface blocks the motion into it.",
         "Position along x over time: set-point, estimate and truth.",
         [Panel("x (m)", lines, height_px=200, off_ground=True)],
         timeline,
@@ -74,7 +75,7 @@ def position_figure(log: RunLog, timeline: Timeline) -> Iterator[Figure]:
         yield stacked(
             f"ground-truth-{name}",
             f"Error of the estimated {name}, "
-            + ("in the world." if unit == "mm" else "as a rotation vector about the body's axes.")
+            + ("in the world." if unit == "mm" else AGAINST_THE_BODY)
             + " Panels have one scale.",
             f"Error of the estimated {name} on three axes over time.",
             alike(panels, timeline.off_ground_s or (-np.inf, np.inf)),
@@ -135,7 +136,8 @@ def rmse_table(result: Result) -> Markup:
     ]
     return table(
         f"Errors of the estimates beside Table IV of {SOURCE}: pose from take-off to landing, "
-        "force against the filtered sensor. The published row of z is not legible.",
+        "roll, pitch and yaw against the body frame of the tracker, which is turned against the "
+        "body's, force against the filtered sensor. The published row of z is not legible.",
         columns,
         rows,
     )

@@ -11,7 +11,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from inspect_cli.log.reader import RunLog
-from inspect_cli.metrics.flight import Flight, NotMeasured
+from inspect_cli.metrics.flight import Flight
 from inspect_cli.metrics.pull import Pull, pulls
 from inspect_cli.records import Estimate, Reference, State, TrueDisturbance
 from inspect_cli.reporting.figure import Figure
@@ -149,11 +149,12 @@ def _cord_wrench(log: RunLog) -> tuple[Vector, Points] | None:
 
 
 def pull_table(flight: Flight) -> Markup:
-    """One row for each pull; nothing where they cannot be told."""
-    try:
-        rows = [_row(k + 1, pull) for k, pull in enumerate(pulls(flight))]
-    except NotMeasured:
-        return Markup("")
+    """One row for each pull.
+
+    Raises:
+        NotMeasured: they cannot be told from the log.
+    """
+    rows = [_row(k + 1, pull) for k, pull in enumerate(pulls(flight))]
     columns = [
         Column("Pull"),
         Column("Peak force", "N", numeric=True),

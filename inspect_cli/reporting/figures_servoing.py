@@ -15,6 +15,7 @@ from inspect_cli.metrics.geometry import rotation_vectors, turned_by
 from inspect_cli.metrics.slide import Slide, slides
 from inspect_cli.records import Estimate, Mode, SurfaceEstimate, TrueContact
 from inspect_cli.reporting.figure import Figure, Json, numbers
+from inspect_cli.reporting.figures_drawing import extent
 from inspect_cli.reporting.palette import (
     ESTIMATE,
     REFERENCE,
@@ -131,7 +132,8 @@ def _from_the_side(flight: Flight, number: int, slide: Slide) -> Figure:
 
 def _slope(view: SideView, tracks: Sequence[Points]) -> float:
     """Height over width of what is seen of the tracks."""
-    width, height = np.ptp(np.vstack([view.of(p_W) for p_W in tracks]), axis=0)
+    low, high = extent(np.vstack([view.of(p_W) for p_W in tracks]))
+    width, height = high - low
     return float(height / max(width, 1e-6))
 
 

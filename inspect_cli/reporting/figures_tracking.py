@@ -30,6 +30,14 @@ Track = tuple[Vector, Points, LineStyle]
 
 AXES = ("x", "y", "z")
 ANGLES = ("roll", "pitch", "yaw")
+IN_CONTACT = (
+    " Shaded and numbered: contact phases, in which the set-point lies behind the surface on "
+    "purpose."
+)
+SPRING = (
+    " In contact the distance to the reference is the compression of the virtual spring that makes "
+    "the force; it is no tracking error."
+)
 
 
 def tracking_figures(log: RunLog, timeline: Timeline) -> Iterator[Figure]:
@@ -39,16 +47,14 @@ def tracking_figures(log: RunLog, timeline: Timeline) -> Iterator[Figure]:
         return
     yield stacked(
         "position",
-        "Position of the body in the world. Shaded and numbered: contact phases, in which the "
-        "set-point lies behind the surface on purpose.",
+        "Position of the body in the world." + (IN_CONTACT if timeline.phases else ""),
         "Position x, y, z of the body over time: reference, estimate and truth.",
         _panels([(rows["t_s"], rows["p_WB"], style) for rows, style in poses], AXES, "m"),
         timeline,
     )
     yield from _error_figure(
         "position-error",
-        "Position errors per axis of the world. In contact the distance to the reference is the "
-        "compression of the virtual spring that makes the force; it is no tracking error. The "
+        f"Position errors per axis of the world.{SPRING if timeline.phases else ''} The "
         "axes are scaled to the time between take-off and landing.",
         "Position errors along x, y and z over time.",
         _panels(_errors(log, _position_difference_mm), AXES, "mm", off_ground=True),

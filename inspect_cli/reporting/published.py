@@ -20,10 +20,9 @@ class Published:
     short: str
     """The number alone, for a narrow table; empty where there is none."""
 
-    @property
-    def cited(self) -> str:
-        """The words with their place."""
-        return f"{self.words} (§\u00a0{self.section})"
+    def cited(self, metric: str) -> str:
+        """The words with their place; of a row with several numbers, the one of the metric."""
+        return f"{NUMBERS.get(metric, self.words)} (§\u00a0{self.section})"
 
 
 SOURCE = "Bodie et al., RSS 2019"
@@ -91,6 +90,9 @@ called there, the number, its unit. The row of z is not legible in the table."""
 NUMBERS: dict[str, str] = {
     "slide.distance_m": "0.53 m",
     "slide.speed_mean_mps": "0.17 m/s",
+    "estimation.expected_rmse_x_m": "0.0123 m",
+    "estimation.expected_rmse_y_m": "0.0106 m",
+    "estimation.expected_rmse_yaw_rad": "0.0129 rad",
     **{metric: f"{value:g} {unit}" for metric, (_, value, unit) in TABLE_IV.items()},
 }
 """The number that a metric answers, where a row has several."""

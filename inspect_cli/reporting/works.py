@@ -84,7 +84,7 @@ def kicker(works: Works) -> str:
     if works.contacts:
         parts.append("contact")
     if works.pulls:
-        parts.append("rope pulls in free flight")
+        parts.append("rope pulls in free flight" if works.poses else "rope pulls")
     elif works.poses:
         parts.append("holding a pose")
     if works.ground_truth:
@@ -158,7 +158,8 @@ def _held(works: Works, result: Result) -> Iterator[str]:
     if works.poses and not works.pulls:
         error = _millimetres(result, "tracking.tool_error_p95_m")
         if error:
-            yield f"out of contact the tip was within {error} of its reference 95 % of the time."
+            where = "out of contact" if works.touches else "from take-off to landing"
+            yield f"{where} the tip was within {error} of its reference 95 % of the time."
 
 
 def _pulled(works: Works, result: Result) -> Iterator[str]:

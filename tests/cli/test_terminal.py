@@ -127,6 +127,21 @@ def test_words_stay_whole_where_the_terminal_is_narrow(
     assert max(len(line) for line in tables.splitlines()) <= 80
 
 
+@pytest.mark.parametrize(("ref", "published"), [("A8.force", "1.8 N"), ("A1", ""), (None, "")])
+def test_the_papers_number_stands_below_the_row(
+    flown: Callable[[Result], None],
+    capsys: pytest.CaptureFixture[str],
+    ref: str | None,
+    published: str,
+) -> None:
+    check = result("completed", "pass").checks[0].model_copy(update={"ref": ref})
+    flown(result("completed").model_copy(update={"checks": (check,), "points": ()}))
+    cli.run(["fly", "m.yaml"])
+    told = capsys.readouterr().err
+    assert ("published" in told) == bool(published)
+    assert (published or "answers") in told
+
+
 def test_points_that_share_a_reason_share_a_line(
     flown: Callable[[Result], None], capsys: pytest.CaptureFixture[str]
 ) -> None:

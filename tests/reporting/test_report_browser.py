@@ -11,6 +11,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from example_flights import Flight, spoil
+from experiment_flights import drawing, force_evaluation, hold, servoing
 from report_pages import Reported
 
 from inspect_cli.records import Estimate, InvalidReason, State
@@ -75,6 +76,22 @@ def test_every_figure_is_drawn_and_nothing_foreign_runs(
     assert "<img src" not in document
     assert not errors
     assert document.count('class="main-svg"') >= 14
+
+
+@pytest.mark.browser
+@pytest.mark.parametrize("build", [drawing, servoing, hold, force_evaluation])
+def test_every_figure_of_an_experiment_is_drawn(
+    chromium: str,
+    report: Report,
+    platform_file: Path,
+    tmp_path: Path,
+    build: Callable[[Path], Flight],
+) -> None:
+    reported = report(build(platform_file))
+    root, _, errors = drawn(chromium, reported.path, tmp_path / "profile")
+    assert root["figures"] == str(len(reported.page.figures))
+    assert root["failures"] == "0"
+    assert not errors
 
 
 @pytest.mark.browser
