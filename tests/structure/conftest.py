@@ -6,14 +6,8 @@ from collections.abc import Callable
 
 import pytest
 
-from inspect_cli.schema.mission import (
-    ContactGrid,
-    Mission,
-    Start,
-    StructureSurface,
-    SurfaceSource,
-    Task,
-)
+from inspect_cli.schema.mission import Mission, Start, StructureSurface, SurfaceSource
+from inspect_cli.schema.tasks import ContactGrid, Task
 
 MissionOn = Callable[..., Mission]
 
