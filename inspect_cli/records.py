@@ -168,6 +168,17 @@ class TrueContact(Record):
     resistivity = scalar("Ω·m", "resistivity of the specimen there; NaN without a specimen")
 
 
+class TrueDisturbance(Record):
+    """What pulls at the vehicle in truth; only in logs of flights with a rope, wind or cable."""
+
+    topic = "/truth/disturbance"
+
+    f_rope_W = vector(3, "N", "W", "tension of the rope on the tool's tip")
+    pull = scalar("1", "number of the pull at the rope, from 1 on; 0 while nobody pulls")
+    wind_W = vector(3, "m/s", "W", "velocity of the air, gusts included")
+    f_cable_W = vector(3, "N", "W", "force of the cable on its end at the vehicle")
+
+
 class Imu(Record):
     """One sample of the inertial unit at O_b."""
 
@@ -184,6 +195,28 @@ class Pose(Record):
 
     p_WB = vector(3, "m", "W", "measured position of the body")
     q_WB = vector(4, "1", "W", "measured attitude of the body, wxyz")
+
+
+class Odometry(Pose):
+    """One pose of the odometry on board; its frame starts as W and drifts as the vehicle moves."""
+
+    topic = "/sensor/odometry"
+
+
+WALL_SAMPLES = 80
+"""Samples in one row of ``WallForce``."""
+
+
+class WallForce(Record):
+    """A block of samples of a force sensor in the wall; the time is that of its last sample."""
+
+    topic = "/sensor/wall_force"
+
+    period = scalar("s", "between two samples")
+    p_WS = vector(3, "m", "W", "origin of the sensor's frame S")
+    q_WS = vector(4, "1", "W", "attitude of the sensor's frame S, wxyz")
+    f_S = ArrayField((WALL_SAMPLES, 3), "N", "S", "force of the tool on the surface")
+    t_S = ArrayField((WALL_SAMPLES, 3), "N·m", "S", "its torque about the origin of S")
 
 
 class Probe(Record):
@@ -305,8 +338,11 @@ class Command(Record):
 CORE_RECORDS: tuple[type[Record], ...] = (
     State,
     TrueContact,
+    TrueDisturbance,
     Imu,
     Pose,
+    Odometry,
+    WallForce,
     Probe,
     Reading,
     SurfaceEstimate,

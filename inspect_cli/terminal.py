@@ -20,6 +20,8 @@ from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, T
 from rich.table import Table
 from rich.text import Text
 
+from inspect_cli.reporting.published import number_of
+
 if TYPE_CHECKING:
     from inspect_cli.commands.doctor import Diagnosis
     from inspect_cli.commands.init import Campaign
@@ -285,17 +287,25 @@ def _points_table(points: Sequence[PointResult]) -> Table:
 
 
 def _checks_table(checks: Sequence[Check]) -> Table:
-    table = _table("checks", "metric", "value", "asked for", "answers", "verdict")
+    published = any(number_of(check.ref, check.metric) for check in checks)
+    answers = "answers,\npublished" if published else "answers"
+    table = _table("checks", "metric", "value", "asked for", answers, "verdict")
     for check in checks:
         unit = "" if check.unit == "1" or check.value is None else f" {check.unit}"
         table.add_row(
             f"{check.metric}\nover {check.over}" if check.over else check.metric,
             _number(check.value, ".4g") + unit,
             _bounds(check),
-            check.ref or "",
+            _answers(check),
             _styled(check.verdict),
         )
     return table
+
+
+def _answers(check: Check) -> str:
+    """The row of the ledger, and below it the published number where there is one."""
+    number = number_of(check.ref, check.metric)
+    return "\n".join(part for part in (check.ref or "", number) if part)
 
 
 def _bounds(check: Check) -> str:

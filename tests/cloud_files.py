@@ -9,8 +9,8 @@ import laspy
 import numpy as np
 import pye57
 
+from inspect_cli.scans.files import open3d
 from inspect_cli.spatial.arrays import Points
-from inspect_cli.structure.files import open3d
 
 POINTS: Points = np.round(np.random.default_rng(0).uniform(-3.0, 3.0, (800, 3)), 4)
 

@@ -18,10 +18,11 @@ from inspect_cli.log import names
 from inspect_cli.log.reader import read_log
 from inspect_cli.log.writer import LogWriter
 from inspect_cli.metrics.evaluate import evaluate
-from inspect_cli.records import CORE_RECORDS
+from inspect_cli.records import CORE_RECORDS, Record, TrueDisturbance
 from inspect_cli.schema.loading import Loaded, load_mission
 from inspect_cli.schema.plan import Plan, PlanFile
 from inspect_cli.schema.result import Result
+from inspect_cli.schema.truth import TruthModel
 from inspect_cli.simulation.loop import Ending, Flight
 from inspect_cli.truth.geometry import StructureTruth, true_structure
 from inspect_cli.vehicles.kinds import Vehicle
@@ -86,10 +87,12 @@ def _fly(
 ) -> Ending:
     """Fly and leave a whole log; an interrupted flight leaves the part that was flown."""
     lengths = vehicle.capabilities.lengths
-    with LogWriter(folder / LOG_NAME, CORE_RECORDS, lengths) as log:
+    with LogWriter(folder / LOG_NAME, _records(loaded.truth), lengths) as log:
         _attach(log, loaded, plan, seed)
         log.scene(0.0, plan)
-        flight = Flight(vehicle, plan, loaded.truth, structure, seed, log)
+        _note_reliefs(log, structure)
+        estimation = loaded.mission.estimation
+        flight = Flight(vehicle, plan, loaded.truth, structure, seed, log, estimation)
         report = (lambda t_s: progress(t_s, plan.duration_s)) if progress else None
         try:
             ending = flight.run(report)
@@ -98,6 +101,22 @@ def _fly(
             raise FlightInterrupted(folder) from None
         log.close(ending.status, ending.reason)
     return ending
+
+
+def _records(truth: TruthModel) -> list[type[Record]]:
+    """The channels of a flight: without a rope, wind or cable there is nothing to say of them."""
+    left_out = () if truth.loads_depend_on_the_flight else (TrueDisturbance,)
+    return [record for record in CORE_RECORDS if record not in left_out]
+
+
+def _note_reliefs(log: LogWriter, structure: StructureTruth) -> None:
+    """Say in the log how true the heights are that stand for a mesh."""
+    for surface in structure.surfaces:
+        if surface.relief is not None:
+            pitch = max(surface.relief.row["pitch"][0])
+            departs_mm = 1e3 * surface.relief.deviation_m
+            text = f"truth: '{surface.name}' is a mesh, flown as heights every {pitch:.3g} m"
+            log.event(0.0, "info", f"{text} that depart from it by {departs_mm:.2g} mm at most")
 
 
 def _load(path: Path, platform: Path | None) -> tuple[Loaded, Plan | None]:

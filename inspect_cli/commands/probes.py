@@ -82,7 +82,7 @@ def rendering() -> str:
 
 def clouds() -> str:
     """Write a small cloud and read it back."""
-    from inspect_cli.structure.clouds import read_cloud
+    from inspect_cli.scans.clouds import read_cloud
 
     points = np.random.default_rng(0).normal(size=(100, 3)).astype(np.float32)
     header = f"ply\nformat ascii 1.0\nelement vertex {len(points)}\n"

@@ -6,6 +6,13 @@ An inertial sample is taken at an instant. Between two samples the filter uses t
 trapezoidal rule), so it is not half a sample behind. A pose that falls between two samples is
 reached with the older sample held; the rest of the interval then gets what is missing from
 the trapezoid.
+
+Poses may come from a tracker or from odometry, which has no absolute reference: they are white
+noise around a frame that drifts as the vehicle moves. The belief lives in that frame. What the
+frame does between two poses, the inertial unit does not feel; it is process noise of position and
+yaw (``frame_drifts``), without which the filter would hold a millimetre of drift for an outlier.
+Nothing on board can observe the drift itself: ``covariance`` is that of the belief against the
+odometry's frame, and the error against W is larger and grows without a bound.
 """
 
 from __future__ import annotations
@@ -18,21 +25,23 @@ import numpy as np
 from inspect_cli.estimation.kalman import (
     STATES,
     correct_pose,
+    frame_drifts,
     pose_innovation,
     propagate,
     publish,
     take_sample,
 )
 from inspect_cli.records import Estimate, Imu, Pose
-from inspect_cli.schema.vehicle import ImuModel, PoseModel
+from inspect_cli.schema.positioning import PoseNoise
+from inspect_cli.schema.vehicle import ImuModel
 from inspect_cli.spatial.arrays import Vector
 from inspect_cli.spatial.rotations import quaternion_normalize
 
 GATE: Final = 38.258
 """A pose is rejected above this: the χ² quantile (6 degrees of freedom) of probability 1 − 1e-6."""
 
-RESTART_AFTER: Final = 20
-"""Poses rejected in a row after which the tracker is believed against the filter."""
+RESTART_S: Final = 0.2
+"""Poses rejected in a row for so long are believed against the filter."""
 
 START_SPEED_MPS: Final = 1.0
 """Standard deviation of each velocity component when the motion (re)starts from a pose."""
@@ -50,12 +59,15 @@ class ErrorStateFilter:
 
     ``covariance`` (15, 15) is that of the error state, in the order of ``Estimate.sigma``.
     ``rejected`` counts the poses rejected in a row. A lone outlier is ignored; after
-    ``RESTART_AFTER`` of them (0.2 s at 100 Hz) position and attitude are taken from the tracker
+    ``restart_after`` of them (``RESTART_S``) position and attitude are taken from the pose
     and the velocity is learnt anew, while the biases and their covariance stay.
     """
 
-    def __init__(self, imu_model: ImuModel, pose_model: PoseModel, imu_hz: int) -> None:
+    def __init__(
+        self, imu_model: ImuModel, pose_model: PoseNoise, imu_hz: int, pose_hz: int
+    ) -> None:
         self._imu_hz = imu_hz
+        self.restart_after = max(2, round(RESTART_S * pose_hz))
         self._bias_variance = np.repeat(
             [imu_model.accel_bias_initial_mps2**2, imu_model.gyro_bias_initial_radps**2], 3
         )
@@ -69,6 +81,8 @@ class ErrorStateFilter:
         position_sd = max(pose_model.position_noise_m, POSITION_FLOOR_M)
         attitude_sd = max(pose_model.attitude_noise_rad, ATTITUDE_FLOOR_RAD)
         self._pose_variance = np.repeat([position_sd**2, attitude_sd**2], 3)
+        self._walks = np.array(pose_model.walks)
+        self._posed_t = 0.0
         self._p, self._v, self._q = np.zeros(3), np.zeros(3), np.array([1.0, 0.0, 0.0, 0.0])
         self._bias = np.zeros(6)
         self.covariance = np.zeros((STATES, STATES))
@@ -88,7 +102,7 @@ class ErrorStateFilter:
         self.covariance[:] = 0.0
         np.fill_diagonal(self.covariance[9:, 9:], self._bias_variance)
         self._held[:], self._held_t = 0.0, math.nan
-        self._t = pose.t_s
+        self._t = self._posed_t = pose.t_s
         self._restart_motion(pose)
         self._publish(estimate)
 
@@ -111,6 +125,7 @@ class ErrorStateFilter:
         dt = pose.t_s - self._t
         if dt > 0.0 and not math.isnan(self._held_t):
             self._advance(self._held, dt)
+        self._drift(pose.t_s)
         innovation = pose_innovation(self._p, self._q, pose.p_WB, pose.q_WB)
         chi2 = correct_pose(
             self._p,
@@ -133,7 +148,7 @@ class ErrorStateFilter:
         if math.isnan(chi2):
             return False
         self.rejected += 1
-        if self.rejected < RESTART_AFTER:
+        if self.rejected < self.restart_after:
             return False
         self._restart_motion(pose)
         return True
@@ -144,6 +159,12 @@ class ErrorStateFilter:
         noise = self._noise if stretch < 1.5 else self._noise * stretch
         propagate(self._p, self._v, self._q, self._bias, self.covariance, sample, dt, noise)
         self._t += dt
+
+    def _drift(self, t_s: float) -> None:
+        since, self._posed_t = t_s - self._posed_t, t_s
+        if self._walks.any() and since > 0.0:
+            rate = self._held[3:] - self._bias[3:]
+            frame_drifts(self.covariance, self._q, self._v, rate, self._walks, since)
 
     def _restart_motion(self, pose: Pose) -> None:
         self._p[:] = pose.p_WB

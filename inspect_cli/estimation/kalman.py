@@ -129,6 +129,24 @@ def propagate(
 
 
 @kernel
+def frame_drifts(P: Matrix, q: Vector, v: Vector, w: Vector, walks: Vector, dt: float) -> None:
+    """Add what the frame of an odometry drifts in ``dt`` s at the speed v and the rate w (3,).
+
+    With ``walks`` (3,) = (σ_p, σ_ψd, σ_ψθ) per √m, √m and √rad, the distance d = |v| Δt and the
+    angle θ = |w| Δt, position gains σ_p² d on each axis and yaw gains σ_ψd² d + σ_ψθ² θ about z_W,
+    which is Rᵀ z in the frame of the attitude error.
+    """
+    distance = dt * np.sqrt(v[0] ** 2 + v[1] ** 2 + v[2] ** 2)
+    angle = dt * np.sqrt(w[0] ** 2 + w[1] ** 2 + w[2] ** 2)
+    yaw = walks[1] ** 2 * distance + walks[2] ** 2 * angle
+    R = quaternion_to_matrix(q)
+    for i in range(3):
+        P[i, i] += walks[0] ** 2 * distance
+        for k in range(3):
+            P[6 + i, 6 + k] += yaw * R[2, i] * R[2, k]
+
+
+@kernel
 def pose_innovation(p: Vector, q: Vector, p_measured: Vector, q_measured: Vector) -> Vector:
     """(6,) = (p_m − p, Log(q⁻¹ ⊗ q_m)); not finite where the measurement is not."""
     turn = quaternion_log(

@@ -5,12 +5,22 @@ surface in a direction of the tool, and estimate, set-point and trajectory are r
 pure pursuit that keeps contact and orientation. Here the set-point of each renewal is where the
 law of progress will be ``HORIZON_S`` later, to be passed at the law's speed then; so the
 reference moves steadily between renewals, and comes to rest behind the horizon if none follows.
+
+The surface bends away from its tangent. What the normals of the past have turned per metre,
+b = dn/ds, is carried on to the horizon: at the distance s ahead along the tangent t
+
+    n(s) = n + s b,    p(s) = p + s t − ½ s² (t · b) n,    ω = n × b ṡ
+
+without which the tool would lag behind a vault by half the horizon.
 """
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
+import numpy as np
+
+from inspect_cli.guidance.aim import Aim
 from inspect_cli.guidance.motion import MotionLimits
 from inspect_cli.guidance.progress import Progress
 from inspect_cli.schema import plan
@@ -22,6 +32,10 @@ LONGEST_GAP_S = 0.4
 """While no estimate comes for longer, the law of progress waits."""
 ACCELERATION_SHARE = 0.5
 """Of what the vehicle may: the tool starts gently on a surface that rubs."""
+BEND_SHARE = 0.2
+"""Of each new difference of normals in the bend: over a second's renewals noise averages out."""
+LEAST_STEP_M = 0.01
+"""Normals nearer to each other than this tell nothing of a bend."""
 
 
 @dataclass
@@ -36,6 +50,10 @@ class Following:
     """Time of the law of progress."""
     end_s: float = 0.0
     """When the reference will have come to rest at the end of the way."""
+    bend_W: Vector = field(default_factory=lambda: np.zeros(3))
+    """b = dn/ds (3,) in W, 1/m."""
+    _normal: tuple[Vector, float] | None = None
+    """The normal of the last difference, and where on the way it was seen."""
 
     @classmethod
     def begin(cls, t_s: float, model: plan.Following, limits: MotionLimits) -> Following:
@@ -58,6 +76,25 @@ class Following:
         here = self.progress.at(self.clock_s)[0]
         there, speed, change = self.progress.at(self.clock_s + HORIZON_S)
         return there - here, speed, change
+
+    def learn(self, n_W: Vector) -> None:
+        """Take a seen normal (3,) into the bend; where the way has not moved on, nothing."""
+        here = self.progress.at(self.clock_s)[0]
+        if self._normal is None:
+            self._normal = n_W, here
+            return
+        before, there = self._normal
+        if here - there < LEAST_STEP_M:
+            return
+        self.bend_W += BEND_SHARE * ((n_W - before) / (here - there) - self.bend_W)
+        self._normal = n_W, here
+
+    def surface_at(self, aim: Aim, way_m: float) -> tuple[Vector, Vector]:
+        """Point (3,) m and normal (3,) of the bent surface ``way_m`` ahead of an aim."""
+        forward = self.direction(aim.R_WT)
+        sag = 0.5 * way_m * way_m * float(forward @ self.bend_W)
+        n_W = aim.n_W + way_m * self.bend_W
+        return aim.p_WC + way_m * forward - sag * aim.n_W, n_W / np.linalg.norm(n_W)
 
     def direction(self, R_WT: Matrix) -> Vector:
         """The unit vector (3,) in W along which the tool slides."""

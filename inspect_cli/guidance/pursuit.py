@@ -35,6 +35,7 @@ from inspect_cli.interfaces import Capabilities, Posture, at_origin
 from inspect_cli.records import Reference, SurfaceEstimate
 from inspect_cli.schema.plan import Target
 from inspect_cli.spatial.arrays import Matrix, Structured, Vector
+from inspect_cli.spatial.rotations import rotate_back
 
 NO_SURFACES: Mapping[str, Structured] = {}
 
@@ -249,17 +250,22 @@ class Pursuit:
             self.implausible += 1
             return
         way_m, speed_mps, change_mps2 = following.ahead(t_s)
-        forward = following.direction(seen.R_WT)
-        ahead = seen.at(seen.p_WC + way_m * forward, seen.n_W)
+        following.learn(seen.n_W)
+        ahead = seen.at(*following.surface_at(seen, way_m))
         goal = self._posture_for(approach.target, ahead, approach.depth_m)
         if goal is None:
             self.implausible += 1
             return
         approach.aim = seen
-        passing = goal.p_WB, speed_mps * forward, change_mps2 * forward
-        phi = turn_between(now.q_WB, goal.q_WB)
+        forward = following.direction(ahead.R_WT)
+        w_W = speed_mps * np.cross(ahead.n_W, following.bend_W)
+        v_WT_W = speed_mps * (forward - approach.depth_m * following.bend_W)
+        v_WB_W = v_WT_W - np.cross(w_W, ahead.set_point(approach.depth_m) - goal.p_WB)
+        passing = goal.p_WB, v_WB_W, change_mps2 * forward
+        # Over a horizon the tool turns by so little that the rate of φ is the body's.
+        turning = turn_between(now.q_WB, goal.q_WB), rotate_back(np.asarray(goal.q_WB), w_W)
         stretch = Stretch.to_motion(
-            t_s, now, passing, phi, np.asarray(goal.arm_angle), HORIZON_S, HORIZON_S
+            t_s, now, passing, turning, np.asarray(goal.arm_angle), HORIZON_S, HORIZON_S
         )
         limits = MotionLimits.of(self.capabilities)
         braking = to_stop(stretch.end_s, stretch.motion(stretch.end_s), limits)

@@ -78,7 +78,8 @@ class Stretch:
     ) -> Stretch:
         """From ``start`` to rest at ``p_WB`` (3,), attitude R_0 Exp(``phi`` (3,)), ``arm`` (n,)."""
         still = np.zeros(3), np.zeros(3)
-        return cls.to_motion(start_s, start, (p_WB, *still), phi, arm, duration_s, turn_s)
+        turning = phi, np.zeros(3)
+        return cls.to_motion(start_s, start, (p_WB, *still), turning, arm, duration_s, turn_s)
 
     @classmethod
     def to_motion(
@@ -86,12 +87,15 @@ class Stretch:
         start_s: float,
         start: Motion,
         goal: tuple[Vector, Vector, Vector],
-        phi: Vector,
+        turning: tuple[Vector, Vector],
         arm: Vector,
         duration_s: float,
         turn_s: float,
     ) -> Stretch:
-        """Like ``to_rest``, but the body passes its goal (p_WB, v_WB_W, a_WB_W) in motion."""
+        """Like ``to_rest``, but the body passes its goal in motion.
+
+        ``goal`` is (p_WB, v_WB_W, a_WB_W) there, ``turning`` the rotation vector φ and its rate.
+        """
         position, rotation = np.empty((6, 3)), np.empty((6, 3))
         joints, none = np.empty((6, start.arm.shape[1])), np.zeros(start.arm.shape[1])
         still = np.zeros(3)
@@ -99,7 +103,7 @@ class Stretch:
             start.p_WB, start.v_WB_W, start.a_WB_W, *goal, duration_s, position
         )  # fmt: skip
         quintic_between(
-            still, start.w_WB_B, start.alpha_WB_B, phi, still, still, turn_s, rotation
+            still, start.w_WB_B, start.alpha_WB_B, *turning, still, turn_s, rotation
         )  # fmt: skip
         angle, rate, acceleration = start.arm
         quintic_between(angle, rate, acceleration, arm, none, none, duration_s, joints)

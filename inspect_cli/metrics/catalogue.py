@@ -2,36 +2,25 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from dataclasses import dataclass
-
-from inspect_cli.metrics import contact, estimation, guidance, half_cell, operation, tracking
-from inspect_cli.metrics.flight import Flight
+from inspect_cli.metrics import contact, estimation, guidance, half_cell, operation, pull, tracking
+from inspect_cli.metrics.catalogue_estimation import ESTIMATION_METRICS
+from inspect_cli.metrics.catalogue_sliding import SLIDING_METRICS
+from inspect_cli.metrics.spec import MetricSpec
 from inspect_cli.records import (
     Command,
     Estimate,
     Reading,
-    Record,
     Reference,
     State,
     SurfaceEstimate,
     TrueContact,
+    TrueDisturbance,
 )
-
-
-@dataclass(frozen=True)
-class MetricSpec:
-    """A metric: ``function`` computes it from a flight that has the channels ``needs``."""
-
-    unit: str
-    function: Callable[[Flight], float]
-    meaning: str
-    needs: tuple[type[Record], ...]
-
 
 FOLLOWED = (State, Reference)
 ESTIMATED = (State, Reference, Estimate)
 READ = (Reading,)
+PULLED = (State, Reference, TrueDisturbance)
 READ_TRULY = (Reading, State, Reference, TrueContact)
 
 METRICS: dict[str, MetricSpec] = {
@@ -134,7 +123,7 @@ METRICS: dict[str, MetricSpec] = {
     "contact.force_cv": MetricSpec(
         "1",
         contact.force_cv,
-        "worst coefficient of variation of a dwell's true force after its first second",
+        "worst coefficient of variation of a contact's true force after its first second",
         FOLLOWED,
     ),
     "contact.bounce_gaps": MetricSpec(
@@ -197,6 +186,67 @@ METRICS: dict[str, MetricSpec] = {
         "points whose verdict differs from the specimen's; a point without one differs",
         READ_TRULY,
     ),
+    "pull.force_peak_n": MetricSpec(
+        "N", pull.force_peak, "largest force of the rope on the tip over all pulls", PULLED
+    ),
+    "pull.angle_to_x_B_deg": MetricSpec(
+        "°",
+        pull.angle_to_x_B_deg,
+        "largest angle between the rope's force and ±x_B while above half of a pull's peak",
+        PULLED,
+    ),
+    "pull.displacement_max_m": MetricSpec(
+        "m",
+        pull.displacement_max,
+        "largest displacement of the body since a pull began",
+        PULLED,
+    ),
+    "pull.displacement_along_m": MetricSpec(
+        "m",
+        pull.displacement_along,
+        "largest displacement along the rope's peak force, of the pulls the least",
+        PULLED,
+    ),
+    "pull.displacement_z_m": MetricSpec(
+        "m", pull.displacement_z, "largest displacement up or down since a pull began", PULLED
+    ),
+    "pull.attitude_motion_m": MetricSpec(
+        "m",
+        pull.attitude_motion,
+        "largest motion of the tip by the body's rotation since a pull began",
+        PULLED,
+    ),
+    "pull.along_over_z": MetricSpec(
+        "1",
+        pull.along_over_z,
+        "displacement along the rope's force over that in z, of the pulls the least",
+        PULLED,
+    ),
+    "pull.along_over_attitude": MetricSpec(
+        "1",
+        pull.along_over_attitude,
+        "displacement along the rope's force over attitude motion, of the pulls the least",
+        PULLED,
+    ),
+    "pull.metres_per_newton": MetricSpec(
+        "m/N",
+        pull.metres_per_newton,
+        "displacement along the rope's force over the force's peak, mean over the pulls",
+        PULLED,
+    ),
+    "pull.torque_peak_nm": MetricSpec(
+        "N·m",
+        pull.torque_peak,
+        "largest torque of the rope about z_B through O_b",
+        PULLED,
+    ),
+    "pull.yaw_max_rad": MetricSpec("rad", pull.yaw_max, "largest yaw since a pull began", PULLED),
+    "pull.yaw_per_nm": MetricSpec(
+        "rad/(N·m)",
+        pull.yaw_per_nm,
+        "largest yaw over largest torque about z_B, mean over the pulls",
+        PULLED,
+    ),
     "flight.duration_s": MetricSpec("s", operation.duration, "time off the ground", FOLLOWED),
     "flight.energy_wh_planned": MetricSpec(
         "Wh", operation.energy_planned, "energy of the flight by the plan", ()
@@ -213,4 +263,6 @@ METRICS: dict[str, MetricSpec] = {
     "actuators.thrust_max_n": MetricSpec(
         "N", operation.thrust_max, "largest true thrust of a single rotor", (State,)
     ),
+    **ESTIMATION_METRICS,
+    **SLIDING_METRICS,
 }

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from inspect_cli.metrics.flight import TOUCH_N, Dwell, Flight, NotMeasured, largest, mean
+from inspect_cli.metrics.flight import TOUCH_N, Flight, NotMeasured, Rows, largest, mean
 from inspect_cli.records import TrueContact
 from inspect_cli.schema.plan import Target
 from inspect_cli.spatial.arrays import Vector
@@ -13,6 +13,8 @@ LONGEST_GAP_S = 0.050
 """A loss of contact longer than this is a bounce (ledger rows A6.force, A7.slide)."""
 SETTLE_S = 1.0
 """The force may settle for this long after the first touch (ledger row A6.force)."""
+SLID = ("stroke", "following")
+"""Kinds of target that are held in contact until the tool lifts off."""
 
 
 def steady_forces(flight: Flight) -> Vector:
@@ -46,20 +48,28 @@ def force_peak(flight: Flight) -> float:
 
 
 def force_cv(flight: Flight) -> float:
-    """Worst coefficient of variation (σ / mean) of a dwell's true normal force.
+    """Worst coefficient of variation (σ / mean) of the true normal force of a contact.
 
-    Each from 1 s after its first touch.
+    Each from 1 s after its first touch: of a point to the end of its dwell, of a stroke and of a
+    surface that is followed to the release.
     """
-    ratios = [_variation(flight, dwell) for dwell in flight.dwells.values()]
+    ratios = [_variation(flight, _held(flight, target)) for target in flight.plan.targets]
     settled = [ratio for ratio in ratios if ratio is not None]
     if not settled:
-        raise NotMeasured(f"no dwell lasted longer than {SETTLE_S:g} s")
+        raise NotMeasured(f"no contact lasted longer than {SETTLE_S:g} s")
     return max(settled)
 
 
-def _variation(flight: Flight, dwell: Dwell) -> float | None:
-    times = flight.state["t_s"][dwell.rows]
-    settled = flight.state["f_normal"][dwell.rows][times > times[0] + SETTLE_S]
+def _held(flight: Flight, target: Target) -> Rows:
+    if target.kind in SLID:
+        return flight.contact_rows(target.index)
+    dwell = flight.dwells.get(target.index)
+    return dwell.rows if dwell else np.empty(0, np.intp)
+
+
+def _variation(flight: Flight, rows: Rows) -> float | None:
+    times = flight.state["t_s"][rows]
+    settled = flight.state["f_normal"][rows][times > times[:1] + SETTLE_S]
     if len(settled) < 2:
         return None
     return float(np.std(settled) / np.mean(settled))
@@ -67,10 +77,11 @@ def _variation(flight: Flight, dwell: Dwell) -> float | None:
 
 def bounce_gaps(flight: Flight) -> float:
     """Number of gaps longer than 50 ms with less than 0.1 N between first touch and release."""
-    return float(sum(_gaps(flight, target) for target in flight.contact_targets))
+    return float(sum(gaps_of(flight, target) for target in flight.contact_targets))
 
 
-def _gaps(flight: Flight, target: Target) -> int:
+def gaps_of(flight: Flight, target: Target) -> int:
+    """Those of one target."""
     rows = flight.contact_rows(target.index)
     touching = rows[flight.state["f_normal"][rows] >= TOUCH_N]
     times = flight.state["t_s"]
@@ -103,8 +114,12 @@ def position_error(flight: Flight, target: Target) -> float | None:
 
 
 def position_error_max(flight: Flight) -> float:
-    """The largest ``position_error`` of the points that were pressed, m."""
-    errors = [position_error(flight, target) for target in flight.contact_targets]
+    """The largest ``position_error`` of the points that were pressed, m.
+
+    Where a surface is found by the camera alone, no point of it was planned.
+    """
+    planned = (target for target in flight.contact_targets if target.surface is not None)
+    errors = [position_error(flight, target) for target in planned]
     pressed = [error for error in errors if error is not None]
     if not pressed:
         raise NotMeasured("no point was pressed")

@@ -8,9 +8,10 @@ import numpy as np
 
 from inspect_cli.log.reader import RunLog
 from inspect_cli.metrics.acceptance import answer_all
-from inspect_cli.metrics.catalogue import METRICS, MetricSpec
+from inspect_cli.metrics.catalogue import METRICS
 from inspect_cli.metrics.flight import Flight, NotMeasured
 from inspect_cli.metrics.points import point_results
+from inspect_cli.metrics.spec import MetricSpec
 from inspect_cli.schema.result import Metric, Result
 
 

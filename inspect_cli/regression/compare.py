@@ -38,6 +38,8 @@ BY_UNIT: dict[str, Tolerance] = {
     "V": Tolerance(0.0005, 0.05),
     "s": Tolerance(0.1, 0.01),
     "Wh": Tolerance(0.01, 0.005),
+    "m/N": Tolerance(0.0005, 0.05),
+    "rad/(N·m)": Tolerance(0.001, 0.05),
     "1": EXACT,
 }
 """What a metric may move by, by its unit; a unit that is not here may not move."""
@@ -50,8 +52,13 @@ BY_METRIC: dict[str, Tolerance] = {
     "actuators.thrust_max_n": Tolerance(0.1, 0.10),
     # Without a unit, and yet not counts.
     "contact.force_cv": Tolerance(0.005, 0.10),
+    "contact.residual_cv": Tolerance(0.005, 0.10),
+    "contact.oscillation_growth": Tolerance(0.05, 0.10),
+    "estimation.moving_over_hovering": Tolerance(0.05, 0.10),
     "half_cell.resistance_error_rel_max": Tolerance(0.002, 0.10),
     "flight.saturated_share": Tolerance(0.002, 0.10),
+    "pull.along_over_z": Tolerance(0.1, 0.15),
+    "pull.along_over_attitude": Tolerance(0.1, 0.15),
 }
 """Exceptions from ``BY_UNIT``."""
 

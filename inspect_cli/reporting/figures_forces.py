@@ -32,7 +32,7 @@ from inspect_cli.reporting.timeline import Line, Panel, Timeline, stacked
 from inspect_cli.schema.plan import Plan
 from inspect_cli.spatial.arrays import Points, Structured, Vector
 
-AT_A_SURFACE = (Mode.APPROACH, Mode.PRESS, Mode.RETREAT)
+AT_A_SURFACE = (Mode.APPROACH, Mode.PRESS, Mode.SLIDE, Mode.RETREAT)
 
 
 def force_figures(log: RunLog, plan: Plan, timeline: Timeline) -> Iterator[Figure]:

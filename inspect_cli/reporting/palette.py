@@ -48,7 +48,22 @@ COMMAND = LineStyle("command", MUTED, "dot", 1.0)
 TRACKING_ERROR = LineStyle("truth − reference", GREEN, "solid", 1.4)
 BELIEVED_ERROR = LineStyle("estimate − reference", BLUE, "solid", 1.4)
 ESTIMATION_ERROR = LineStyle("estimate − truth", BLUE, "solid", 1.2)
+CORD = LineStyle("cord (truth)", GREEN, "solid", 1.8)
+SENSOR_RAW = LineStyle("wall sensor, raw", "#e3c3d5", "solid", 0.7)
+SENSOR_FILTERED = LineStyle("wall sensor, filtered", PURPLE, "solid", 1.6)
+TRUE_SURFACE = LineStyle("true surface", MUTED, "solid", 3.0)
+SEEN_SURFACE = LineStyle("surface as seen", ORANGE, "solid", 1.2)
 SATURATED = LineStyle("saturated", VERMILION, "solid", 1.0)
+
+
+TRIALS = ((BLUE, "solid"), (VERMILION, "dash"), (GREEN, "dashdot"), (PURPLE, "longdash"))
+"""Colours and dashes of what is done several times, in turn."""
+
+
+def trial_style(trial: int) -> LineStyle:
+    """How a trial is drawn, by its number from 0."""
+    colour, dash = TRIALS[trial % len(TRIALS)]
+    return LineStyle(f"trial {trial + 1}", colour, dash, 1.5)
 
 
 @dataclass(frozen=True)
@@ -76,8 +91,10 @@ MODE_COLOURS = {
     Mode.IDLE: "#c4ccd4",
     Mode.TAKEOFF: "#8c96a0",
     Mode.TRANSIT: SKY_BLUE,
+    Mode.HOLD: GREEN,
     Mode.APPROACH: BLUE,
     Mode.PRESS: INK,
+    Mode.SLIDE: PURPLE,
     Mode.RETREAT: BLUE,
     Mode.LAND: "#8c96a0",
     Mode.LANDED: "#c4ccd4",

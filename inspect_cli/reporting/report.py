@@ -2,14 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Sequence
 from pathlib import Path
 
 from inspect_cli.files import write_whole
 from inspect_cli.log.reader import RunLog
 from inspect_cli.metrics.corrosion import COMBINED_RULE
 from inspect_cli.records import Reference
-from inspect_cli.reporting.figure import Figure
+from inspect_cli.reporting.checks_table import checks_table
+from inspect_cli.reporting.experiments import experiment_sections
+from inspect_cli.reporting.figure import drawn
 from inspect_cli.reporting.figures_corrosion import cumulative_figure, resistivity_figure
 from inspect_cli.reporting.figures_forces import (
     actuator_figures,
@@ -38,7 +40,6 @@ from inspect_cli.reporting.summary import (
 )
 from inspect_cli.reporting.table import NOTHING, definitions
 from inspect_cli.reporting.tables import (
-    checks_table,
     classes_table,
     events_table,
     fits_table,
@@ -48,6 +49,7 @@ from inspect_cli.reporting.tables import (
     verdicts_table,
 )
 from inspect_cli.reporting.timeline import Timeline, timeline_of
+from inspect_cli.reporting.works import Works, kicker, told, works_of
 from inspect_cli.schema.plan import Plan
 from inspect_cli.schema.result import Result
 
@@ -75,19 +77,23 @@ def write_report(log: RunLog, result: Result, folder: Path) -> Path:
 def report_html(log: RunLog, result: Result, plan: Plan) -> str:
     """The page as text."""
     points = read_points(result, plan)
+    works = works_of(log, plan)
     timeline = timeline_of(rows_of(log, Reference), plan)
     title = log.mission().title or result.mission
-    sections = [
-        Section("summary", "Summary", _summary(log, result, points)),
-        Section("survey", "Corrosion survey", _survey(log, plan, points)),
-        Section("flight", "Flight", _flight(log, result, plan, points, timeline)),
-        Section("structure", "Structure", fits_table(plan)),
-        Section("provenance", "Provenance", provenance(log, result, plan)),
-    ]
-    return page(f"{title} – inspection report", _header(log, result, title), sections)
+    sections = [Section("summary", "Summary", _summary(log, result, works, points))]
+    if points:
+        sections.append(Section("survey", "Corrosion survey", _survey(log, plan, points)))
+    sections += experiment_sections(log, result, plan, works, timeline)
+    flight = _flight(log, result, plan, works, points, timeline)
+    sections.append(Section("flight", "Flight", flight))
+    if plan.surfaces:
+        sections.append(Section("structure", "Structure", fits_table(plan)))
+    sections.append(Section("provenance", "Provenance", provenance(log, result, plan)))
+    kind = "inspection report" if points else "flight report"
+    return page(f"{title} – {kind}", _header(log, result, works, title), sections)
 
 
-def _header(log: RunLog, result: Result, title: str) -> Markup:
+def _header(log: RunLog, result: Result, works: Works, title: str) -> Markup:
     mission, platform = log.mission(), log.platform()
     description = mission.description
     facts = [
@@ -98,14 +104,14 @@ def _header(log: RunLog, result: Result, title: str) -> Markup:
         ("Status", element("span", result.status, class_=f"badge {result.status}")),
     ]
     return joined(
-        element("p", "Inspection report · half-cell potential by contact", class_="kicker"),
+        element("p", kicker(works), class_="kicker"),
         element("h1", title),
         element("p", description, class_="description") if description else "",
         definitions(facts),
     )
 
 
-def _summary(log: RunLog, result: Result, points: Sequence[ReadPoint]) -> Markup:
+def _summary(log: RunLog, result: Result, works: Works, points: Sequence[ReadPoint]) -> Markup:
     checks = (
         checks_table(result.checks)
         if result.checks
@@ -113,20 +119,18 @@ def _summary(log: RunLog, result: Result, points: Sequence[ReadPoint]) -> Markup
     )
     return joined(
         warnings_markup(warnings(result, log.mission().expect_status)),
-        finding_markup(finding(points)),
-        key_figures(result, points),
+        finding_markup([*finding(points), *told(works, result)]),
+        key_figures(result, works, points),
         checks,
         element("h3", "What this report does not say"),
-        caveats(log, points),
+        caveats(log, result, points),
     )
 
 
 def _survey(log: RunLog, plan: Plan, points: Sequence[ReadPoint]) -> Markup:
-    if not points:
-        return element("p", "The plan asks for no reading.")
     diagrams = [cumulative_figure(points), resistivity_figure(points)]
     return joined(
-        _drawn(map_figures(points, plan)),
+        drawn(map_figures(points, plan)),
         points_table(points),
         truth_table(points),
         classes_table(points),
@@ -134,7 +138,7 @@ def _survey(log: RunLog, plan: Plan, points: Sequence[ReadPoint]) -> Markup:
         element(
             "p", element("strong", "Rule of the combined verdict. "), COMBINED_RULE, class_="rule"
         ),
-        _drawn((d for d in diagrams if d is not None), side_by_side=True),
+        drawn((d for d in diagrams if d is not None), side_by_side=True),
         element("h3", "How the readings were taken"),
         definitions(method(log, plan)),
     )
@@ -144,41 +148,56 @@ def _flight(
     log: RunLog,
     result: Result,
     plan: Plan,
+    works: Works,
     points: Sequence[ReadPoint],
     timeline: Timeline,
 ) -> Markup:
     modes = modes_figure(log)
-    forces = [*force_figures(log, plan, timeline)]
     return joined(
         element("h3", "Pose tracking"),
-        _drawn(tracking_figures(log, timeline), side_by_side=True),
+        drawn(tracking_figures(log, timeline), side_by_side=True),
         metrics_table("Errors of tracking and estimation.", result, ("tracking", "estimation")),
-        element("h3", "Contact force and external wrench"),
-        _drawn(forces[:1]),
-        _drawn(forces[1:], side_by_side=True),
-        metrics_table("Contact and readings.", result, ("contact", "half_cell")),
-        element("h3", "Surface seen by the depth camera"),
-        _drawn(surface_figures(log, timeline)),
+        _forces(log, result, plan, works, timeline),
         element("h3", "Actuators"),
-        _drawn(actuator_figures(log, timeline)),
+        drawn(actuator_figures(log, timeline)),
         element("h3", "Path in space"),
-        _drawn([scene_figure(log, plan, points)]),
+        drawn([scene_figure(log, plan, points)]),
         element("h3", "Modes and events"),
-        _drawn([modes] if modes else []),
+        drawn([modes] if modes else []),
         events_table(log),
-        metrics_table("Other metrics.", result, _other_groups(result)),
+        metrics_table("Other metrics.", result, _other_groups(result, works)),
     )
 
 
-SHOWN_GROUPS = ("tracking", "estimation", "contact", "half_cell")
+def _forces(log: RunLog, result: Result, plan: Plan, works: Works, timeline: Timeline) -> Markup:
+    """What it pressed with and what it saw; where nothing was touched, what it felt."""
+    forces = list(force_figures(log, plan, timeline))
+    if not works.touches:
+        wrench = [figure for figure in forces if figure.name != "force"]
+        return joined(element("h3", "External wrench"), drawn(wrench, side_by_side=True))
+    caption = "Contact and readings." if works.readings else "Contact."
+    return joined(
+        element("h3", "Contact force and external wrench"),
+        drawn(forces[:1]),
+        drawn(forces[1:], side_by_side=True),
+        metrics_table(caption, result, _contact_groups(works)),
+        element("h3", "Surface seen by the depth camera"),
+        drawn(surface_figures(log, timeline)),
+    )
 
 
-def _other_groups(result: Result) -> list[str]:
-    return [g for name in result.metrics if (g := name.split(".")[0]) not in SHOWN_GROUPS]
+CONTACT_GROUPS = ("contact", "half_cell")
+SHOWN_GROUPS = (
+    *("tracking", "estimation", "pull", "drawing", "slide", "force_sensor"),
+    *CONTACT_GROUPS,
+)
 
 
-def _drawn(figures: Iterable[Figure], *, side_by_side: bool = False) -> Markup:
-    shown = joined(*(figure.html() for figure in figures))
-    if side_by_side and shown:
-        return element("div", shown, class_="pair")
-    return shown
+def _contact_groups(works: Works) -> list[str]:
+    return [group for group in CONTACT_GROUPS if group not in works.foreign_groups]
+
+
+def _other_groups(result: Result, works: Works) -> list[str]:
+    """The groups of metrics that no other table shows and that concern this mission."""
+    hidden = {*SHOWN_GROUPS, *works.foreign_groups}
+    return [g for name in result.metrics if (g := name.split(".")[0]) not in hidden]

@@ -51,6 +51,11 @@ def attitude_difference_mrad(q_from: Points, q_to: Points) -> Points:
     return difference
 
 
+def turned_to_body(q_WB: Points, x_W: Points) -> Points:
+    """R_WBᵀ x_W for rows of quaternions and vectors; NaN where the attitude is none."""
+    return turned_to_world(q_WB * np.array([1.0, -1.0, -1.0, -1.0]), x_W)
+
+
 def turned_to_world(q_WB: Points, x_B: Points) -> Points:
     """R_WB x_B for rows of quaternions and vectors; NaN where the attitude is none."""
     turn, good = rotations(q_WB)

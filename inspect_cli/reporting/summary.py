@@ -7,7 +7,9 @@ from collections.abc import Sequence
 from inspect_cli.log.reader import RunLog
 from inspect_cli.reporting.markup import Markup, element, joined
 from inspect_cli.reporting.points import ReadPoint
+from inspect_cli.reporting.published import SOURCE, published_of
 from inspect_cli.reporting.table import NOTHING, number, significant
+from inspect_cli.reporting.works import Box, Works, boxes
 from inspect_cli.schema.plan import Plan
 from inspect_cli.schema.result import Result, Status
 
@@ -54,21 +56,19 @@ def _value(result: Result, name: str) -> float | None:
 
 
 def finding(points: Sequence[ReadPoint]) -> list[str]:
-    """The finding in sentences: how much is valid, and what corrodes."""
-    return [_validity(points), *_corrosion(points)]
+    """The finding of the readings in sentences: how much is valid, and what corrodes."""
+    return [_validity(points), *_corrosion(points)] if points else []
 
 
 def _validity(points: Sequence[ReadPoint]) -> str:
     valid = sum(p.point.valid for p in points)
-    if not points:
-        return "The plan asks for no reading."
     return f"{valid} of {len(points)} readings {'is' if valid == 1 else 'are'} valid."
 
 
 def _corrosion(points: Sequence[ReadPoint]) -> list[str]:
     read = [p.point for p in points if p.point.potential_mv is not None]
     if not read:
-        return ["Without a valid reading nothing can be said about corrosion."] if points else []
+        return ["Without a valid reading nothing can be said about corrosion."]
     active = [point.label for point in read if point.corrosion == "active"]
     slow = [p.label for p in read if p.corrosion != "active" and p.astm_class == "active"]
     possible = [p.label for p in read if p.corrosion == "possible" and p.astm_class != "active"]
@@ -101,16 +101,14 @@ def _points(labels: Sequence[str]) -> str:
     return f"points {', '.join(labels[:-1])} and {labels[-1]}"
 
 
-def key_figures(result: Result, points: Sequence[ReadPoint]) -> Markup:
+def key_figures(result: Result, works: Works, points: Sequence[ReadPoint]) -> Markup:
     """The numbers that stand in the boxes under the finding."""
-    read = [p.point for p in points if p.point.potential_mv is not None]
-    potentials = [point.potential_mv for point in read if point.potential_mv is not None]
     passed = sum(check.verdict == "pass" for check in result.checks)
-    boxes = [
-        ("valid readings", f"{sum(p.point.valid for p in points)} / {len(points)}", ""),
-        ("active by the combined rule", str(sum(p.corrosion == "active" for p in read)), ""),
-        ("most negative", number(min(potentials, default=None), 0), "mV CSE"),
-        ("acceptance checks passed", f"{passed} / {len(result.checks)}", ""),
+    checks = [("acceptance checks passed", f"{passed} / {len(result.checks)}", "")]
+    shown = [
+        *(_reading_boxes(points) if points else ()),
+        *boxes(works, result),
+        *(checks if result.checks or points else ()),
         ("flight time", number(_value(result, "flight.duration_s"), 0), "s"),
     ]
     return element(
@@ -122,10 +120,20 @@ def key_figures(result: Result, points: Sequence[ReadPoint]) -> Markup:
                 element("span", f" {unit}" if unit else "", class_="unit"),
                 element("span", name, class_="name"),
             )
-            for name, value, unit in boxes
+            for name, value, unit in shown
         ),
         class_="boxes",
     )
+
+
+def _reading_boxes(points: Sequence[ReadPoint]) -> list[Box]:
+    read = [p.point for p in points if p.point.potential_mv is not None]
+    potentials = [point.potential_mv for point in read if point.potential_mv is not None]
+    return [
+        ("valid readings", f"{sum(p.point.valid for p in points)} / {len(points)}", ""),
+        ("active by the combined rule", str(sum(p.corrosion == "active" for p in read)), ""),
+        ("most negative", number(min(potentials, default=None), 0), "mV CSE"),
+    ]
 
 
 def is_simulated(log: RunLog) -> bool:
@@ -133,26 +141,49 @@ def is_simulated(log: RunLog) -> bool:
     return log.seed is not None or log.truth() is not None
 
 
-def caveats(log: RunLog, points: Sequence[ReadPoint]) -> Markup:
+OF_READINGS = (
+    "ASTM C876 leaves the interpretation to a specialist who also knows the chloride "
+    "content, the depth of carbonation, delamination, the rate of corrosion and the "
+    "exposure of the structure. Potentials alone do not give the rate or the loss of steel.",
+    "The class boundaries hold for uncoated steel in concrete that is not saturated; very "
+    "dry, carbonated or water-saturated concrete and coated bars shift the potentials.",
+    "Potentials are against copper/copper sulphate (CSE) and are not corrected for temperature.",
+    "A reading is valid only after sufficient force for sufficient time and a stable "
+    "potential. Invalid points are shown as such, never as values, and enter no statistics.",
+)
+FEW_READINGS = "With fewer than 20 valid readings, shares and cumulative frequencies are coarse."
+SIMULATED_READINGS = (
+    "This is a simulated flight. The readings come from a model of the specimen and of the "
+    "probe, not from a structure."
+)
+SIMULATED = (
+    "This is a simulated flight. Motion, contact and sensors are models; what their sources leave "
+    "open was chosen and is listed below with the reason."
+)
+TRUTH_IS_SEEN = (
+    "What is called true is known to the simulator alone: no controller, estimator or planner "
+    "of the flight could see it."
+)
+PUBLISHED_ELSEWHERE = (
+    f"Published values are those of another vehicle in its own experiments ({SOURCE}). They stand "
+    "beside ours for comparison; what passes is decided by the mission's bounds alone."
+)
+
+
+def caveats(log: RunLog, result: Result, points: Sequence[ReadPoint]) -> Markup:
     """What the numbers do not say."""
-    simulated = (
-        "This is a simulated flight. The readings come from a model of the specimen and of the "
-        "probe, not from a structure.",
-    )
-    always = (
-        "ASTM C876 leaves the interpretation to a specialist who also knows the chloride "
-        "content, the depth of carbonation, delamination, the rate of corrosion and the "
-        "exposure of the structure. Potentials alone do not give the rate or the loss of steel.",
-        "The class boundaries hold for uncoated steel in concrete that is not saturated; very "
-        "dry, carbonated or water-saturated concrete and coated bars shift the potentials.",
-        "Potentials are against copper/copper sulphate (CSE) and are not corrected for "
-        "temperature.",
-        "A reading is valid only after sufficient force for sufficient time and a stable "
-        "potential. Invalid points are shown as such, never as values, and enter no statistics.",
-    )
-    few = ("With fewer than 20 valid readings, shares and cumulative frequencies are coarse.",)
     read = sum(p.point.potential_mv is not None for p in points)
-    notes = (*(simulated if is_simulated(log) else ()), *always, *(few if 0 < read < 20 else ()))
+    notes = []
+    if is_simulated(log):
+        notes += [SIMULATED_READINGS] if points else [SIMULATED, TRUTH_IS_SEEN]
+    if points:
+        notes += OF_READINGS
+    if 0 < read < 20:
+        notes.append(FEW_READINGS)
+    if any(published_of(check.ref) for check in result.checks):
+        notes.append(PUBLISHED_ELSEWHERE)
+    if not notes:
+        notes.append("Without the truth, errors are against what the vehicle itself believed.")
     return element("ul", *(element("li", note) for note in notes), class_="caveats")
 
 
@@ -184,5 +215,7 @@ def _each(values: Sequence[float], unit: str) -> str:
 
 def finding_markup(sentences: Sequence[str]) -> Markup:
     """The finding as one paragraph, its first sentence standing out."""
+    if not sentences:
+        return Markup("")
     first, *rest = sentences
     return element("p", element("strong", first), joined(" ", " ".join(rest)), class_="finding")

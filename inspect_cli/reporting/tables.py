@@ -19,14 +19,8 @@ from inspect_cli.reporting.table import (
     table,
 )
 from inspect_cli.schema.plan import Plan
-from inspect_cli.schema.result import Check, PointResult, Result
+from inspect_cli.schema.result import PointResult, Result
 
-VERDICT_WORDS = {
-    "pass": "✓ pass",
-    "fail": "✗ fail",
-    "fail-known": "! known failure",
-    "not_measured": "– not measured",
-}
 ASTM_ROWS = (
     ("passive", "E > −200 mV", "more than 90 % that no reinforcement corrodes"),
     ("uncertain", "−350 mV ≤ E ≤ −200 mV", "not decided by the potential"),
@@ -43,47 +37,6 @@ TRUE_FIELDS = (
     "true_potential_mv",
     "true_corrosion",
 )
-
-
-def checks_table(checks: Sequence[Check]) -> Markup:
-    """Every acceptance entry with its bounds, the published row it answers, and our value."""
-    columns = [
-        Column("Check", prose=True),
-        Column("Reference"),
-        Column("Required", numeric=True),
-        Column("Measured", numeric=True),
-        Column("Unit"),
-        Column("Verdict"),
-        Column("Remark", prose=True),
-    ]
-    return table(
-        "Acceptance checks: what the mission requires, the row of the ledger of published results "
-        "that a check answers for, and what this flight measured.",
-        columns,
-        [_check_row(check) for check in checks],
-    )
-
-
-def _check_row(check: Check) -> list[str]:
-    over = f"relative to {check.over}" if check.over else ""
-    return [
-        joined(_meaning(check.metric), Markup(" "), element("code", check.metric)),
-        check.ref or NOTHING,
-        bounds(check.min, check.max),
-        significant(check.value),
-        _unit(check.unit),
-        chip(VERDICT_WORDS[check.verdict], check.verdict),
-        "; ".join(part for part in (over, check.reason) if part),
-    ]
-
-
-def bounds(low: float | None, high: float | None) -> str:
-    """A required interval in words: ≥, ≤, = or both ends."""
-    if low is not None and high is not None:
-        if low == high:
-            return f"= {significant(low)}"
-        return f"{significant(low)} … {significant(high)}"
-    return f"≥ {significant(low)}" if low is not None else f"≤ {significant(high)}"
 
 
 def points_table(points: Sequence[ReadPoint]) -> Markup:
@@ -212,9 +165,9 @@ def metrics_table(caption: str, result: Result, groups: Sequence[str]) -> Markup
     """The result's metrics of some groups, the part of a name before its dot; empty without."""
     rows = [
         [
-            "; not measured: ".join(part for part in (_meaning(name), metric.why) if part),
+            "; not measured: ".join(part for part in (meaning(name), metric.why) if part),
             significant(metric.value),
-            _unit(metric.unit),
+            unit_shown(metric.unit),
             element("code", name),
         ]
         for name, metric in result.metrics.items()
@@ -231,11 +184,13 @@ def metrics_table(caption: str, result: Result, groups: Sequence[str]) -> Markup
     return table(caption, columns, rows)
 
 
-def _unit(unit: str) -> str:
+def unit_shown(unit: str) -> str:
+    """The unit; nothing for a number without one."""
     return "" if unit == "1" else unit
 
 
-def _meaning(metric: str) -> str:
+def meaning(metric: str) -> str:
+    """What a metric is, by the catalogue; nothing for one that is not in it."""
     spec = METRICS.get(metric)
     return spec.meaning if spec else ""
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -11,12 +11,17 @@ from inspect_cli.records import Mode
 from inspect_cli.reporting.figure import Figure, Json, merged, numbers, words
 from inspect_cli.reporting.palette import CONTACT_SHADE, MUTED, LineStyle
 from inspect_cli.schema.plan import Plan
-from inspect_cli.spatial.arrays import Structured, Vector
+from inspect_cli.spatial.arrays import Mask, Structured, Vector
 
 BUCKETS = 800
 """Buckets per line; each keeps its smallest and largest sample. About one per pixel."""
 MAX_LABELLED_PHASES = 40
-OFF_GROUND = (Mode.TRANSIT, Mode.APPROACH, Mode.PRESS, Mode.RETREAT, Mode.HOVER)
+OFF_GROUND = (
+    *(Mode.TRANSIT, Mode.HOLD, Mode.APPROACH, Mode.PRESS, Mode.SLIDE, Mode.RETREAT),
+    Mode.HOVER,
+)
+PRESSED = (Mode.PRESS, Mode.SLIDE)
+"""Modes of a contact, from the press to the end of the slide if there is one."""
 LARGEST_DRAWN = 1e6
 """Beyond this only a diverged simulation goes; an axis that showed it would show nothing else."""
 PANEL_GAP_PX = 14
@@ -34,13 +39,32 @@ class Phase:
 
 
 @dataclass(frozen=True)
+class Mark:
+    """A moment with a word for it, and which end of the word stands there."""
+
+    t_s: float
+    label: str
+    anchor: str = "center"
+
+
+@dataclass(frozen=True)
 class Timeline:
     """What the figures over time have in common."""
 
     phases: tuple[Phase, ...] = ()
-    """The contacts, which are shaded."""
+    """The contacts, or whatever else is shaded."""
     off_ground_s: tuple[float, float] | None = None
     """From the end of the take-off to the beginning of the landing."""
+    marks: tuple[Mark, ...] = ()
+    window_s: tuple[float, float] | None = None
+    """The stretch that is drawn; without it, everything."""
+    title: str = "time (s)"
+    of_the_log: bool = True
+    """Whether times are the log's; such figures zoom together."""
+
+    def within(self, window_s: tuple[float, float]) -> Timeline:
+        """The same, drawn and scaled for a stretch of time."""
+        return replace(self, window_s=window_s, off_ground_s=window_s)
 
 
 @dataclass(frozen=True)
@@ -109,8 +133,6 @@ def _off_ground_s(reference: Structured) -> tuple[float, float] | None:
 
 def _contact_phases(reference: Structured, plan: Plan) -> tuple[Phase, ...]:
     """The stretches in which the executive was pressing, with the label of their point."""
-    pressing = reference["mode"] == Mode.PRESS
-    edges = np.flatnonzero(np.diff(np.concatenate([[False], pressing, [False]]).astype(np.int8)))
     t_s = reference["t_s"]
     labels = {target.index: target.label for target in plan.targets}
     return tuple(
@@ -119,8 +141,21 @@ def _contact_phases(reference: Structured, plan: Plan) -> tuple[Phase, ...]:
             float(t_s[min(end, len(t_s) - 1)]),
             labels.get(int(reference["target"][first]), ""),
         )
-        for first, end in edges.reshape(-1, 2)
+        for first, end in stretches(np.isin(reference["mode"], PRESSED))
     )
+
+
+def stretches(inside: Mask) -> list[tuple[int, int]]:
+    """First row of each stretch of True, and the row after its last."""
+    edges = np.flatnonzero(np.diff(np.concatenate([[False], inside, [False]]).astype(np.int8)))
+    return [(int(first), int(end)) for first, end in edges.reshape(-1, 2)]
+
+
+def alike(panels: Sequence[Panel], window_s: tuple[float, float]) -> list[Panel]:
+    """The panels with one range of values for all, so that they can be compared by eye."""
+    lines = [line for panel in panels for line in panel.lines]
+    axis = _value_range(lines, window_s)
+    return [replace(panel, axis=merged(axis, panel.axis or {})) for panel in panels]
 
 
 def stacked(
@@ -140,10 +175,12 @@ def stacked(
         "hovermode": "x unified",
         "hoversubplots": "axis",
         "legend": {"y": 1.0 + 20.0 / drawn_px},
-        "shapes": [_shade(phase) for phase in timeline.phases],
-        "annotations": _phase_labels(timeline.phases),
-        "xaxis": {"title": {"text": "time (s)"}, "anchor": _axis(len(panels) - 1)},
+        "shapes": [*map(_shade, timeline.phases), *map(_rule, timeline.marks)],
+        "annotations": [*_phase_labels(timeline.phases), *map(_mark_label, timeline.marks)],
+        "xaxis": {"title": {"text": timeline.title}, "anchor": _axis(len(panels) - 1)},
     }
+    if timeline.window_s is not None:
+        layout["xaxis"]["range"] = list(timeline.window_s)
     shown: set[str] = set()
     for k, (panel, top, height) in enumerate(zip(panels, tops, heights, strict=True)):
         domain = [max(0.0, float((top - height) / drawn_px)), float(top / drawn_px)]
@@ -152,10 +189,20 @@ def stacked(
             axis |= _value_range(panel.lines, timeline.off_ground_s)
         layout["yaxis" if k == 0 else f"yaxis{k + 1}"] = merged(axis, panel.axis or {})
         for line in panel.lines:
-            traces.append(_trace(line, _axis(k), line.style.label not in shown))
+            traces.append(_trace(_cut(line, timeline), _axis(k), line.style.label not in shown))
             shown.add(line.style.label)
     height_px = int(drawn_px) + TOP_PX + BOTTOM_PX
-    return Figure(name, caption, description, traces, layout, height_px, timed=True)
+    timed = timeline.of_the_log
+    return Figure(name, caption, description, traces, layout, height_px, timed=timed)
+
+
+def _cut(line: Line, timeline: Timeline) -> Line:
+    """What lies in the window, so that thinning spends its samples there."""
+    if timeline.window_s is None:
+        return line
+    t_s = np.asarray(line.t_s)
+    within = (t_s >= timeline.window_s[0]) & (t_s <= timeline.window_s[1])
+    return replace(line, t_s=t_s[within], values=np.asarray(line.values)[within])
 
 
 def _axis(panel: int) -> str:
@@ -209,19 +256,37 @@ def _shade(phase: Phase) -> Json:
     }
 
 
+def _rule(mark: Mark) -> Json:
+    return {
+        "type": "line",
+        "xref": "x",
+        "yref": "paper",
+        "x0": mark.t_s,
+        "x1": mark.t_s,
+        "y0": 0,
+        "y1": 1,
+        "line": {"width": 1, "color": MUTED, "dash": "dash"},
+    }
+
+
+def _mark_label(mark: Mark) -> Json:
+    return _label(mark.label, mark.t_s) | {"xanchor": mark.anchor}
+
+
+def _label(text: str, t_s: float) -> Json:
+    return {
+        "text": words(text),
+        "x": t_s,
+        "y": 1,
+        "xref": "x",
+        "yref": "paper",
+        "yanchor": "bottom",
+        "showarrow": False,
+        "font": {"size": 10, "color": MUTED},
+    }
+
+
 def _phase_labels(phases: Sequence[Phase]) -> list[Json]:
     if len(phases) > MAX_LABELLED_PHASES:
         return []
-    return [
-        {
-            "text": words(phase.label),
-            "x": 0.5 * (phase.start_s + phase.end_s),
-            "y": 1,
-            "xref": "x",
-            "yref": "paper",
-            "yanchor": "bottom",
-            "showarrow": False,
-            "font": {"size": 10, "color": MUTED},
-        }
-        for phase in phases
-    ]
+    return [_label(phase.label, 0.5 * (phase.start_s + phase.end_s)) for phase in phases]

@@ -82,6 +82,25 @@ class CylinderShape(Strict):
 Shape = Annotated[PlaneShape | SphereShape | CylinderShape, Field(discriminator="kind")]
 
 
+class MeshShape(Strict):
+    """An irregular surface: a mesh that is a graph of heights over a plane."""
+
+    kind: Literal["mesh"] = "mesh"
+    file: str
+    """STL, OBJ or PLY, in the campaign folder, in the world's coordinates."""
+    normal: Direction | None = None
+    """The plane's normal, to the side from which the surface is touched. Without it the plane is
+    the one that fits best, and the free side the one that the faces turn to."""
+    pitch_m: Annotated[float, Field(ge=0.002, le=0.5)] = 0.02
+    """Greatest spacing of the grid of heights that the mesh is resampled to."""
+
+
+TrueShape = Annotated[
+    PlaneShape | SphereShape | CylinderShape | MeshShape, Field(discriminator="kind")
+]
+"""What a surface may truly be; no planner believes in a mesh."""
+
+
 class Displacement(Strict):
     """A rigid motion: turn about ``about_m``, then shift."""
 

@@ -13,10 +13,11 @@ from typing import TypeVar
 from pydantic import BaseModel, ValidationError
 
 from inspect_cli.errors import Location, Problem, SchemaError
+from inspect_cli.schema.agreement import disagreements
 from inspect_cli.schema.campaign import campaign_root, inside, is_file, platform_files
 from inspect_cli.schema.explain import problems_of, shown, suggest
 from inspect_cli.schema.mission import Mission, MissionFile
-from inspect_cli.schema.nodes import Node, join, matches, merged, without
+from inspect_cli.schema.nodes import Node, merged, without
 from inspect_cli.schema.references import dangling_surfaces, file_problem, resolved_files
 from inspect_cli.schema.strict_yaml import read_yaml
 from inspect_cli.schema.truth import TruthModel
@@ -67,7 +68,7 @@ def load_mission(path: Path, platform: Path | None = None) -> Loaded:
         except SchemaError as error:
             problems += error.problems
     if file and model:
-        problems += _missing_profiles(node, model, file.impedance)
+        problems += disagreements(file, node, model)
     if problems or file is None or model is None or platform_file is None:
         raise SchemaError(sorted(set(problems), key=_place))
 
@@ -156,23 +157,6 @@ def _named_platform(
         what = f"no platform is named '{shown(name)}'"
         problems.append(Problem(what, where, suggest(name, list(known))))
     return known.get(name)
-
-
-def _missing_profiles(node: Node, platform: PlatformBase, default: str) -> list[Problem]:
-    """Impedance profiles that the mission or one of its tasks names and the platform lacks."""
-    known = list(platform.control.profiles)
-    named = [
-        (str(given.value), given.at(join(steps)))
-        for pattern in ("impedance", "tasks.*.impedance")
-        for steps, given in matches(node, pattern)
-    ]
-    if node.child("impedance") is None:
-        named.append((default, Location(node.file)))
-    return [
-        Problem(f"{platform.name} has no impedance profile '{name}'", where, suggest(name, known))
-        for name, where in named
-        if name not in known
-    ]
 
 
 def _place(problem: Problem) -> tuple[str, int, int]:

@@ -14,6 +14,7 @@ from inspect_cli.schema.base import (
     Triple,
 )
 from inspect_cli.schema.geometry import Displacement, Shape
+from inspect_cli.schema.positioning import Estimation
 from inspect_cli.schema.tasks import Task
 from inspect_cli.schema.truth import TruthModel
 
@@ -154,7 +155,8 @@ class Mission(Strict):
     """Name of a platform in ``platforms/``, or a path to its file in the campaign folder."""
     impedance: Name = "contact_ndt"
     """Which of the platform's impedance profiles to fly with, where a task names none."""
-    estimation: Literal["external"] = "external"
+    estimation: Estimation = "external"
+    """Where poses come from: the external tracker, or the odometry on board."""
     seeds: Seeds = (1, 2, 3)
     tags: tuple[Name, ...] = ()
     start: Start = Start()

@@ -15,6 +15,7 @@ FILES = (
     "structure.*.surface.cloud",
     "structure.*.surface.mesh",
     "tasks.*.trace.svg",
+    "truth.structure.*.geometry.file",
     "truth.structure.*.specimen.potential_mv",
     "truth.structure.*.specimen.resistivity_kohm_cm",
 )
@@ -80,7 +81,8 @@ def dangling_surfaces(mission: Node) -> list[Problem]:
                 problems.append(Problem(what, node.at(join(steps)), suggest(node.value, names)))
     for steps, node in matches(mission, "truth.structure.*"):
         name = str(steps[-1])
-        if name not in names:
+        if name not in names and node.child("geometry") is None:
             what = f"the truth of a surface that is not there: '{shown(name)}'"
-            problems.append(Problem(what, node.key_at(join(steps)), suggest(name, names)))
+            hint = f"{suggest(name, names)}; one that only the truth knows states its geometry"
+            problems.append(Problem(what, node.key_at(join(steps)), hint))
     return problems

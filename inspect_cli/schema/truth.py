@@ -10,8 +10,9 @@ from typing import Annotated, Literal
 
 from pydantic import Field, model_validator
 
-from inspect_cli.schema.base import Name, NonNegative, Positive, Strict, Triple
-from inspect_cli.schema.geometry import Displacement, Shape
+from inspect_cli.schema.base import Count, Name, NonNegative, Positive, Strict, Triple
+from inspect_cli.schema.disturbances import Disturbance, refuse_impossible
+from inspect_cli.schema.geometry import Displacement, TrueShape
 
 
 class AnalyticSpot(Strict):
@@ -51,11 +52,25 @@ class GridSpecimen(Strict):
 Specimen = Annotated[AnalyticSpecimen | GridSpecimen, Field(discriminator="model")]
 
 
-class TrueSurface(Strict):
-    """What one of the structure's surfaces really is."""
+class ForceSensorModel(Strict):
+    """A six-axis force and torque sensor that the whole surface is mounted on."""
 
-    geometry: Shape | None = None
-    """The true shape; without it, the shape that the planner believes in."""
+    rate_hz: Count = 800
+    """Must divide the platform's physics rate."""
+    resolution_n: NonNegative = 0.1
+    """Step of its output; 0 for none."""
+    torque_resolution_nm: NonNegative = 0.002
+    noise_n: NonNegative = 0.0
+    """Standard deviation of each sample and axis."""
+    torque_noise_nm: NonNegative = 0.0
+
+
+class TrueSurface(Strict):
+    """What one of the structure's surfaces really is, or a surface that nobody knows of."""
+
+    geometry: TrueShape | None = None
+    """The true shape; without it, the shape that the planner believes in. A surface that the
+    structure does not name has to state it."""
     moved: Displacement = Displacement()
     """Turns and shifts the true shape, and the specimen with it."""
     absent: bool = False
@@ -63,6 +78,8 @@ class TrueSurface(Strict):
     friction: NonNegative = 0.5
     """Coulomb friction between the tool's tip and the surface."""
     specimen: Specimen | None = None
+    force_sensor: ForceSensorModel | None = None
+    """What measures, in the wall, the force of the tool on this surface."""
 
 
 class TruePlatform(Strict):
@@ -72,21 +89,8 @@ class TruePlatform(Strict):
     """Scales mass and inertia of every body."""
     com_offset_m: Triple = (0.0, 0.0, 0.0)
     """Shifts the centre of mass of the core, in B."""
-
-
-class ConstantWrench(Strict):
-    """A force and a torque that act on the body from ``start_s`` on."""
-
-    kind: Literal["constant"] = "constant"
-    frame: Literal["world", "body"] = "world"
-    force_n: Triple = (0.0, 0.0, 0.0)
-    torque_nm: Triple = (0.0, 0.0, 0.0)
-    start_s: NonNegative = 0.0
-    ramp_s: NonNegative = 1.0
-    """The wrench rises linearly over this time."""
-
-
-Disturbance = ConstantWrench
+    odometry_drift_mps: Triple = (0.0, 0.0, 0.0)
+    """What the odometry drifts in W all the time, at rest too, on top of its model."""
 
 
 class ProximityEffects(Strict):
@@ -100,8 +104,11 @@ class ProximityEffects(Strict):
 class SensorFault(Strict):
     """A sensor that fails during the flight. Nothing flies on without its inertial unit."""
 
-    sensor: Literal["tof", "pose", "probe"]
-    fault: Literal["off", "nan"] = "off"
+    sensor: Literal["tof", "pose", "odometry", "probe"]
+    fault: Literal["off", "nan", "holes"] = "off"
+    """Silent, not a number, or (the depth camera alone) without a return in random patches."""
+    share: Annotated[float, Field(gt=0, lt=1)] | None = None
+    """Of the pixels that holes take from every image."""
     start_s: NonNegative = 0.0
     end_s: Positive | None = None
     """Without it, the fault lasts to the end of the flight."""
@@ -110,6 +117,16 @@ class SensorFault(Strict):
     def _lasts(self) -> SensorFault:
         if self.end_s is not None and self.end_s <= self.start_s:
             raise ValueError(f"end_s {self.end_s:g} must be after start_s {self.start_s:g}")
+        return self
+
+    @model_validator(mode="after")
+    def _only_images_have_holes(self) -> SensorFault:
+        if self.fault == "holes" and self.sensor != "tof":
+            raise ValueError(f"only the images of tof have holes; {self.sensor} can be off or nan")
+        if self.fault == "holes" and self.share is None:
+            raise ValueError("holes need a share of the pixels, such as share: 0.5")
+        if self.fault != "holes" and self.share is not None:
+            raise ValueError(f"share goes with fault: holes; {self.fault} takes everything")
         return self
 
 
@@ -121,3 +138,13 @@ class TruthModel(Strict):
     disturbances: tuple[Disturbance, ...] = ()
     proximity: ProximityEffects = ProximityEffects()
     faults: tuple[SensorFault, ...] = ()
+
+    @model_validator(mode="after")
+    def _possible(self) -> TruthModel:
+        refuse_impossible(self.disturbances)
+        return self
+
+    @property
+    def loads_depend_on_the_flight(self) -> bool:
+        """Whether a rope, a wind or a cable acts: their forces are worth a channel of the log."""
+        return any(entry.kind != "constant" for entry in self.disturbances)

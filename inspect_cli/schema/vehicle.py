@@ -20,17 +20,21 @@ from inspect_cli.schema.base import (
     Strict,
     Triple,
 )
+from inspect_cli.schema.positioning import Estimation, OdometryModel, PoseModel, PoseNoise
 
 SAME_AZIMUTH_DEG = 1e-6
+UNEVEN = ("odometry_hz",)
+"""Rates that need not divide the physics rate: each tick is at the first step when it is due."""
 
 
 class Rates(Strict):
-    """Ticks per second. Every rate divides the physics rate."""
+    """Ticks per second. Every rate but the odometry's divides the physics rate."""
 
     physics_hz: Count = 1000
     control_hz: Count = 250
     imu_hz: Count = 250
     pose_hz: Count = 100
+    odometry_hz: Count = 30
     tof_hz: Count = 10
     probe_hz: Count = 50
     mission_hz: Count = 50
@@ -40,7 +44,9 @@ class Rates(Strict):
     @model_validator(mode="after")
     def _divide(self) -> Rates:
         for name, hz in self:
-            if self.physics_hz % hz:
+            if name in UNEVEN and hz > self.physics_hz:
+                raise ValueError(f"{name} {hz} is above physics_hz {self.physics_hz}")
+            if name not in UNEVEN and self.physics_hz % hz:
                 raise ValueError(f"{name} {hz} does not divide physics_hz {self.physics_hz}")
         return self
 
@@ -59,13 +65,6 @@ class ImuModel(Strict):
     accel_bias_initial_mps2: NonNegative
     """Standard deviation of the bias at the start."""
     gyro_bias_initial_radps: NonNegative
-
-
-class PoseModel(Strict):
-    """White noise of the external tracker."""
-
-    position_noise_m: NonNegative
-    attitude_noise_rad: NonNegative
 
 
 def _rising(range_m: tuple[float, float]) -> tuple[float, float]:
@@ -123,6 +122,8 @@ class Sensors(Strict):
 
     imu: ImuModel
     pose: PoseModel
+    odometry: OdometryModel | None = None
+    """Without it the vehicle cannot fly by on-board estimation."""
     tof: TofModel
     half_cell: HalfCellModel
 
@@ -185,6 +186,18 @@ class PlatformBase(Strict):
     battery: Battery
     sensors: Sensors
     control: ControlModel
+
+    def positioning(self, estimation: Estimation) -> tuple[PoseNoise, int]:
+        """The white noise and the rate of the poses that an estimation is based on.
+
+        Raises:
+            ValueError: on-board estimation of a platform without odometry.
+        """
+        if estimation == "external":
+            return self.sensors.pose, self.rates.pose_hz
+        if self.sensors.odometry is None:
+            raise ValueError(f"{self.name} has no odometry")
+        return self.sensors.odometry, self.rates.odometry_hz
 
 
 class Rotor(Strict):

@@ -9,7 +9,7 @@ import numpy as np
 
 from inspect_cli.compiled import kernel
 from inspect_cli.records import Pose, State
-from inspect_cli.schema.vehicle import PoseModel
+from inspect_cli.schema.positioning import PoseModel
 from inspect_cli.sensing.instrument import Noise
 from inspect_cli.spatial.arrays import Vector
 from inspect_cli.spatial.rotations import (

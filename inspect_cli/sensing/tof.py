@@ -12,9 +12,9 @@ import numpy as np
 from inspect_cli.compiled import kernel
 from inspect_cli.records import State
 from inspect_cli.schema.vehicle import TofModel
-from inspect_cli.spatial.arrays import Matrix, Points, Structured, Vector
-from inspect_cli.spatial.primitives import raycast
+from inspect_cli.spatial.arrays import Matrix, Points, Vector
 from inspect_cli.spatial.rotations import quaternion_to_matrix, rotate
+from inspect_cli.truth.solids import Solids, cast
 
 
 def ray_directions(model: TofModel) -> Points:
@@ -33,15 +33,15 @@ def ray_directions(model: TofModel) -> Points:
 class TofCamera:
     """Casts the camera's rays at the true surfaces and adds range noise.
 
-    ``primitives`` is a PRIMITIVE array of the true surfaces (any number). The noise of a range r
-    is Gaussian along the ray with standard deviation ``noise_floor_m + noise_m · r²``, r in
-    metres. On an articulated arm the camera sits where the last joint's axes meet, so that its
-    centre stays put in B while it turns with the tool.
+    ``solids`` are the true surfaces (any number). The noise of a range r is Gaussian along the
+    ray with standard deviation ``noise_floor_m + noise_m · r²``, r in metres. On an articulated
+    arm the camera sits where the last joint's axes meet, so that its centre stays put in B while
+    it turns with the tool.
     """
 
-    def __init__(self, model: TofModel, primitives: Structured, rng: np.random.Generator) -> None:
+    def __init__(self, model: TofModel, solids: Solids, rng: np.random.Generator) -> None:
         self.model = model
-        self.primitives = primitives
+        self.solids = solids
         self._rng = rng
         self._p_BD = np.array(model.position_B_m)
         self._rays_D = ray_directions(model)
@@ -57,7 +57,7 @@ class TofCamera:
         p_WD = state.p_WB + rotate(state.q_WB, self._p_BD)
         _turn_rays(quaternion_to_matrix(state.q_WT), self._rays_D, self._rays_W)
         nearest, farthest = self.model.range_m
-        raycast(self.primitives, p_WD, self._rays_W, farthest, self._ranges)
+        cast(self.solids, p_WD, self._rays_W, farthest, self._ranges)
         self._rng.standard_normal(out=self._noise)
         _measure(
             self._ranges,

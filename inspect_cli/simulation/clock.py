@@ -1,15 +1,17 @@
 """Time as a count of physics steps, and what is due when.
 
-Every rate divides the physics rate, so each component is due at multiples of a whole number of
-steps, the pattern repeats after their least common multiple, and t = k·dt is never accumulated.
-The loop visits only the ticks at which something is due and lets the physics run in between.
+A component of rate f is due at the first step at or after each k/f, which is step ⌈k P / f⌉ at
+the physics rate P: exactly at k/f where f divides P, up to one step late where it does not. Its
+pattern repeats after P / gcd(P, f) steps, that of all after their least common multiple, and
+t = k·dt is never accumulated. The loop visits only the ticks at which something is due and lets
+the physics run in between.
 """
 
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
-from math import lcm
+from math import gcd, lcm
 
 
 @dataclass(frozen=True)
@@ -28,16 +30,15 @@ class Clock:
 
     def __init__(self, physics_hz: int, rates_hz: Mapping[str, int]) -> None:
         for name, hz in rates_hz.items():
-            if hz < 1 or physics_hz % hz:
-                raise ValueError(f"rate {name} {hz} Hz does not divide {physics_hz} Hz")
+            if not 1 <= hz <= physics_hz:
+                raise ValueError(f"rate {name} {hz} Hz is not between 1 and {physics_hz} Hz")
         self.physics_hz = physics_hz
-        periods = {name: physics_hz // hz for name, hz in rates_hz.items()}
-        cycle = lcm(*periods.values())
-        dues = [
-            (step, frozenset(name for name, period in periods.items() if step % period == 0))
-            for step in range(cycle)
-        ]
-        pattern = [(step, due) for step, due in dues if due]
+        cycle = lcm(*(physics_hz // gcd(physics_hz, hz) for hz in rates_hz.values()))
+        dues: dict[int, set[str]] = {}
+        for name, hz in rates_hz.items():
+            for k in range(cycle * hz // physics_hz):
+                dues.setdefault(-(-k * physics_hz // hz), set()).add(name)
+        pattern = [(step, frozenset(dues[step])) for step in sorted(dues)]
         following = [step for step, _ in pattern[1:]] + [cycle]
         self._cycle = cycle
         self._pattern = [

@@ -5,40 +5,64 @@ from __future__ import annotations
 import numpy as np
 
 from inspect_cli.interfaces import Sensor
-from inspect_cli.records import Probe, State, TrueContact
+from inspect_cli.records import Probe, State, TrueContact, WallForce
+from inspect_cli.schema.base import Triple
+from inspect_cli.schema.positioning import Estimation
 from inspect_cli.schema.vehicle import PlatformBase
 from inspect_cli.sensing.half_cell import HalfCellProbe
 from inspect_cli.sensing.imu import ImuSensor
+from inspect_cli.sensing.odometry import OdometrySensor
 from inspect_cli.sensing.pose import PoseSensor
 from inspect_cli.sensing.tof import TofCamera
+from inspect_cli.sensing.wall_force import WallForceSensor
 from inspect_cli.simulation.randomness import component_rng
-from inspect_cli.spatial.arrays import Structured
-from inspect_cli.spatial.primitives import plane
-from inspect_cli.truth.faults import Faults, spoil
+from inspect_cli.spatial.arrays import Vector
+from inspect_cli.truth.faults import Faults, punch_holes, spoil
+from inspect_cli.truth.geometry import StructureTruth
+from inspect_cli.truth.solids import on_the_ground
 
 
 class Instruments:
-    """IMU, tracker, depth camera and half-cell probe. A call is False when nothing came."""
+    """IMU, tracker or odometry, depth camera, half-cell probe, and a force sensor in the wall.
+
+    A call is False when nothing came.
+    """
 
     def __init__(
-        self, platform: PlatformBase, surfaces: Structured, faults: Faults, seed: int
+        self,
+        platform: PlatformBase,
+        structure: StructureTruth,
+        faults: Faults,
+        seed: int,
+        estimation: Estimation = "external",
+        odometry_drift_mps: Triple = (0.0, 0.0, 0.0),
     ) -> None:
         sensors = platform.sensors
-        ground = plane(np.zeros(3), np.array([0.0, 0.0, 1.0]), (200.0, 200.0))
-        seen = np.concatenate([surfaces, ground])
+        seen = on_the_ground(structure.solids)
         self.imu = ImuSensor(sensors.imu, platform.rates.imu_hz, component_rng(seed, "imu"))
-        self.pose = PoseSensor(sensors.pose, component_rng(seed, "pose"))
+        self.odometry: OdometrySensor | None = None
+        self.pose: PoseSensor | OdometrySensor
+        if estimation == "onboard" and sensors.odometry is not None:
+            self.odometry = OdometrySensor(
+                sensors.odometry, component_rng(seed, "odometry"), odometry_drift_mps
+            )
+            self.pose = self.odometry
+        else:
+            self.pose = PoseSensor(sensors.pose, component_rng(seed, "pose"))
+        self._pose_name = "pose" if self.odometry is None else "odometry"
         self.tof = TofCamera(sensors.tof, seen, component_rng(seed, "tof"))
         self.probe = HalfCellProbe(sensors.half_cell, component_rng(seed, "probe"))
+        self.wall = _wall_sensor(structure, seed)
         self._faults = faults
+        self._holes = component_rng(seed, "tof holes")
 
     def sample_imu(self, state: State) -> bool:
         """An inertial sample."""
         return self._sample("imu", self.imu, state)
 
     def sample_pose(self, state: State) -> bool:
-        """A pose measurement."""
-        return self._sample("pose", self.pose, state)
+        """A pose of the tracker, or of the odometry if there is one, in ``pose.measurement``."""
+        return self._sample(self._pose_name, self.pose, state)
 
     def sample_tof(self, state: State) -> bool:
         """A depth image, in ``tof.points_D``."""
@@ -46,7 +70,13 @@ class Instruments:
         if fault is not None and fault.fault == "off":
             return False
         self.tof.sample(state)
-        if fault is not None:
+        if fault is None:
+            return True
+        if fault.share is not None:
+            model = self.tof.model
+            image = self.tof.points_D.reshape(model.rows, model.columns, 3)
+            punch_holes(image, fault.share, self._holes)
+        else:
             self.tof.points_D[...] = np.nan
         return True
 
@@ -60,6 +90,11 @@ class Instruments:
             spoil(self.probe.measurement)
         return self.probe.measurement
 
+    def sample_wall(self, t_s: float, wrench_W: Vector) -> WallForce | None:
+        """A sample of what the tip does to the wall (6,); the block of samples once it is full."""
+        full = self.wall is not None and self.wall.sample(t_s, wrench_W)
+        return self.wall.measurement if self.wall is not None and full else None
+
     def _sample(self, name: str, sensor: Sensor, state: State) -> bool:
         fault = self._faults.active(name, state.t_s)
         if fault is not None and fault.fault == "off":
@@ -68,3 +103,11 @@ class Instruments:
         if fault is not None:
             spoil(sensor.measurement)
         return True
+
+
+def _wall_sensor(structure: StructureTruth, seed: int) -> WallForceSensor | None:
+    for index, surface in enumerate(structure.surfaces):
+        if surface.force_sensor is not None:
+            primitive = structure.solids.primitives[index : index + 1]
+            return WallForceSensor(surface.force_sensor, primitive, component_rng(seed, "wall"))
+    return None

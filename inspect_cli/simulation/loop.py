@@ -19,6 +19,7 @@ from inspect_cli.interfaces import Posture
 from inspect_cli.log.writer import LogWriter
 from inspect_cli.records import State, SurfaceEstimate
 from inspect_cli.schema.plan import Plan, Target
+from inspect_cli.schema.positioning import Estimation
 from inspect_cli.schema.primitives import primitive_of
 from inspect_cli.schema.result import Status
 from inspect_cli.schema.truth import TruthModel
@@ -26,6 +27,7 @@ from inspect_cli.sensing.reading import ReadingJudge
 from inspect_cli.simulation.clock import Clock, Tick
 from inspect_cli.simulation.instruments import Instruments
 from inspect_cli.simulation.plant import Plant
+from inspect_cli.simulation.randomness import component_rng
 from inspect_cli.simulation.recorder import Recorder
 from inspect_cli.simulation.world import build_world
 from inspect_cli.spatial.arrays import Matrix, Vector
@@ -60,18 +62,36 @@ class Flight:
         structure: StructureTruth,
         seed: int,
         log: LogWriter,
+        estimation: Estimation = "external",
     ) -> None:
         platform, lengths = vehicle.platform, vehicle.capabilities.lengths
         rates = platform.rates
         model = build_world(vehicle, truth.platform, structure)
         radius_m = vehicle.actuators.rotor_radius_m
-        proximity = Proximity(truth.proximity, structure.primitives, radius_m)
-        disturbances = Disturbances(truth.disturbances)
-        self.plant = Plant(model, vehicle, lengths, disturbances, proximity, rates.control_hz)
+        proximity = Proximity(truth.proximity, structure.solids, radius_m)
+        gusts = component_rng(seed, "wind")
+        disturbances = Disturbances(truth.disturbances, gusts, rates.control_hz)
+        self.plant = Plant(
+            model,
+            vehicle,
+            lengths,
+            structure.solids,
+            disturbances,
+            proximity,
+            rates.control_hz,
+        )
         self.plan = plan
         self.contact = ContactTruth(structure)
-        self.instruments = Instruments(platform, structure.primitives, Faults(truth.faults), seed)
-        self.stack = vehicle.flight_stack()
+        faults = Faults(truth.faults)
+        self.instruments = Instruments(
+            platform,
+            structure,
+            faults,
+            seed,
+            estimation,
+            truth.platform.odometry_drift_mps,
+        )
+        self.stack = vehicle.flight_stack(estimation)
         believed = {surface.name: primitive_of(surface.shape) for surface in plan.surfaces}
         self.guidance = Pursuit(vehicle.capabilities, posture_of(plan.start), believed)
         self.surface = SurfaceEstimate.create()
@@ -91,20 +111,23 @@ class Flight:
             self.guidance.reference,
             self.stack,
             self.instruments,
+            disturbances.load.record if truth.loads_depend_on_the_flight else None,
         )
-        self.clock = Clock(
-            rates.physics_hz,
-            {
-                "imu": rates.imu_hz,
-                "pose": rates.pose_hz,
-                "tof": rates.tof_hz,
-                "probe": rates.probe_hz,
-                "mission": rates.mission_hz,
-                "guidance": rates.guidance_hz,
-                "control": rates.control_hz,
-                "log": rates.log_hz,
-            },
-        )
+        _, pose_hz = platform.positioning(estimation)
+        due = {
+            "imu": rates.imu_hz,
+            "pose": pose_hz,
+            "tof": rates.tof_hz,
+            "probe": rates.probe_hz,
+            "mission": rates.mission_hz,
+            "guidance": rates.guidance_hz,
+            "control": rates.control_hz,
+            "log": rates.log_hz,
+        }
+        for surface in structure.surfaces:
+            if surface.force_sensor is not None:
+                due["wall"] = surface.force_sensor.rate_hz
+        self.clock = Clock(rates.physics_hz, due)
         self._limit_s = limit_s + 60.0
 
     def run(self, progress: Callable[[float], None] | None = None) -> Ending:
@@ -129,7 +152,7 @@ class Flight:
         return Ending(status, reason, t_s, wall_s, self.recorder.wall_s)
 
     def _start_stack(self) -> bool:
-        """Begin the estimate at the tracker's first measurement, if there is one."""
+        """Begin the estimate at the first pose measurement, if there is one."""
         heard = self.instruments.sample_pose(self.plant.state)
         pose = self.instruments.pose.measurement
         if not (heard and np.isfinite(pose.p_WB).all() and np.isfinite(pose.q_WB).all()):
@@ -144,6 +167,8 @@ class Flight:
             stack.on_imu(self.instruments.imu.measurement)
         if "pose" in due:
             self._correct_estimate(tick.t_s, state)
+        if "wall" in due:
+            self._feel_wall(tick.t_s)
         if "tof" in due and self.instruments.sample_tof(state):
             self._see_surface(tick.t_s)
         if "probe" in due:
@@ -163,8 +188,15 @@ class Flight:
             self.contact.update(state)
             self.recorder.rows(tick.t_s)
 
+    def _feel_wall(self, t_s: float) -> None:
+        block = self.instruments.sample_wall(t_s, self.plant.wall_wrench())
+        if block is not None:
+            self.recorder.row(block)
+
     def _correct_estimate(self, t_s: float, state: State) -> None:
         heard = self.instruments.sample_pose(state)
+        if heard and self.instruments.odometry is not None:
+            self.recorder.row(self.instruments.odometry.measurement)
         if heard and self.stack.on_pose(self.instruments.pose.measurement):
             self.executive.heard_pose(t_s)
 

@@ -2,7 +2,8 @@
 
 Between two ticks the commands are held, as a flight controller holds them. The plant turns a
 Command into MuJoCo's controls (rate limit of the joints, rising or falling lag of the rotors,
-thrust factors of near surfaces), applies the disturbances, steps, and reads the true State.
+thrust factors of near surfaces), applies the disturbances, keeps the plates of hollow and irregular
+surfaces below the tip, steps, and reads the true State.
 """
 
 from __future__ import annotations
@@ -13,10 +14,13 @@ import numpy as np
 from inspect_cli.compiled import kernel
 from inspect_cli.interfaces import Posture
 from inspect_cli.records import Command, Lengths, State
+from inspect_cli.simulation.plates import Plates
+from inspect_cli.simulation.world import WALL_SENSOR
 from inspect_cli.spatial.arrays import Matrix, Structured, Vector
-from inspect_cli.spatial.rotations import matrix_to_quaternion, rotate_back
-from inspect_cli.truth.disturbances import Disturbances
+from inspect_cli.spatial.rotations import cross, matrix_to_quaternion, rotate_back
+from inspect_cli.truth.disturbances import Disturbances, Motion
 from inspect_cli.truth.proximity import Proximity
+from inspect_cli.truth.solids import Solids
 from inspect_cli.vehicles.kinds import Vehicle
 
 
@@ -109,6 +113,7 @@ class Plant:
         model: mujoco.MjModel,
         vehicle: Vehicle,
         lengths: Lengths,
+        solids: Solids,
         disturbances: Disturbances,
         proximity: Proximity,
         control_hz: int,
@@ -122,7 +127,9 @@ class Plant:
         self._n_arm = lengths.get("n_arm", 0)
         self._actuators = vehicle.actuators
         self._max_turn = vehicle.actuators.joint_rate_radps / control_hz
-        self._disturbances = disturbances
+        self._plates = Plates(model, self.data, solids)
+        self._steps_per_placing = max(round(1.0 / (control_hz * model.opt.timestep)), 1)
+        self.disturbances = disturbances
         self._proximity = proximity
         self._hubs = model.actuator_trnid[: self._n_rotors, 0].copy()
         self._gains = model.actuator_gainprm
@@ -133,12 +140,17 @@ class Plant:
         self._sources = (data.qpos, data.qvel, data.qacc, data.qfrc_constraint)
         self._applied, self._activation = data.qfrc_applied, data.act
         self._contact = data.sensordata
+        self._motion = Motion(data.qpos[:3], data.qpos[3:7], data.qvel[:3], self._tip_W)
+        self._tool = model.body("tool").id
+        walls = [s for s in map(model.sensor, range(model.nsensor)) if WALL_SENSOR in s.name]
+        self._walls = [data.sensordata[s.adr[0] : s.adr[0] + s.dim[0]] for s in walls]
         self._ctrl, self._dynprm = data.ctrl, model.actuator_dynprm
         self._warnings = data.warning.number
 
     def place(self, posture: Posture) -> None:
         """Put the vehicle somewhere at rest."""
         mujoco.mj_resetData(self.model, self.data)
+        self._plates.reset()
         self.data.qpos[:3] = posture.p_WB
         self.data.qpos[3:7] = posture.q_WB
         # The arm's joints come last, and so do their servos: they hold what they stand at.
@@ -162,6 +174,15 @@ class Plant:
         self.state.t_s = t_s
         return self.state
 
+    def wall_wrench(self) -> Vector:
+        """Force of the tip on the surface with a force sensor and torque about O_W, (6,) in W."""
+        wrench = np.zeros(6)
+        for contact in self._walls:
+            force = contact[:3]
+            wrench[:3] += force
+            wrench[3:] += contact[3:6] + cross(contact[6:9], force)
+        return wrench
+
     def apply(self, command: Command) -> None:
         """Take a command."""
         set_controls(
@@ -177,9 +198,22 @@ class Plant:
 
     def disturb(self, t_s: float) -> None:
         """Set the disturbances of this moment."""
-        if self._disturbances.any:
-            force = self._disturbances.generalized_force(t_s, self.data.qpos[3:7])
-            self._applied[:6] = force
+        if not self.disturbances.any:
+            return
+        load = self.disturbances.act(t_s, self._motion)
+        # What pulls at the tip also turns the joints between it and the body.
+        self._applied[6:] = 0.0
+        self._applied[:3], self._applied[3:6] = load.force_W, load.torque_B
+        if load.force_tip_W.any():
+            self._apply_at_tip(load.force_tip_W)
+
+    def _apply_at_tip(self, force_W: Vector) -> None:
+        """Add Jᵀ f of the tool's tip to the applied generalized forces."""
+        mujoco.mj_comPos(self.model, self.data)  # the Jacobian's axes would lag a step
+        no_torque = np.zeros(3)
+        mujoco.mj_applyFT(
+            self.model, self.data, force_W, no_torque, self._tip_W, self._tool, self._applied
+        )
 
     def feel_surroundings(self) -> None:
         """Set the thrust factors of this moment."""
@@ -189,8 +223,18 @@ class Plant:
             )
 
     def step(self, steps: int) -> None:
-        """Let time pass."""
-        mujoco.mj_step(self.model, self.data, steps)
+        """Let time pass; plates are placed at the control rate or more often."""
+        if not self._plates.any:
+            mujoco.mj_step(self.model, self.data, steps)
+            return
+        done = 0
+        while done < steps:
+            if done:
+                mujoco.mj_kinematics(self.model, self.data)  # as ``observe`` left them at first
+            self._plates.follow()
+            stretch = min(self._steps_per_placing, steps - done)
+            mujoco.mj_step(self.model, self.data, stretch)
+            done += stretch
 
     @property
     def diverged(self) -> str:

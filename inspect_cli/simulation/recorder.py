@@ -7,7 +7,14 @@ from time import perf_counter
 from inspect_cli.autonomy.executive import Executive
 from inspect_cli.interfaces import FlightStack
 from inspect_cli.log.writer import LogWriter
-from inspect_cli.records import Record, Reference, State, SurfaceEstimate, TrueContact
+from inspect_cli.records import (
+    Record,
+    Reference,
+    State,
+    SurfaceEstimate,
+    TrueContact,
+    TrueDisturbance,
+)
 from inspect_cli.simulation.instruments import Instruments
 from inspect_cli.spatial.arrays import Matrix, Points, Vector
 
@@ -28,9 +35,12 @@ class Recorder:
         reference: Reference,
         stack: FlightStack,
         instruments: Instruments,
+        disturbance: TrueDisturbance | None,
     ) -> None:
         self._log = log
-        self._computed = (reference, stack.estimate, stack.command)
+        self._computed: tuple[Record, ...] = (reference, stack.estimate, stack.command)
+        if disturbance is not None:
+            self._computed += (disturbance,)
         continuous = (state, contact, *self._computed, instruments.imu.measurement)
         self._taps = [log.tap(record) for record in continuous]
         self._poses = {

@@ -1,9 +1,7 @@
 """The true MuJoCo model: the nominal vehicle plus the Truth.
 
-Surfaces become geoms whose front is the true surface: a box behind a plane, a sphere or a
-cylinder seen from outside, tangent boxes around a cylinder or sphere seen from inside. The tool's
-tip meets each through an explicit contact pair, so that stiffness, damping and friction are those
-that are stated.
+Surfaces become geoms as ``simulation.surface_geoms`` says. The tool's tip meets each through an
+explicit contact pair, so that stiffness, damping and friction are those that are stated.
 
 With a constant impedance d MuJoCo's normal force f obeys δ̈ + b δ̇ + k δ = R f, R = Â (1 − d)/d, δ
 the depth and Â the inverse inertia that the compiler gives the tip. A body of mass m pressed by F
@@ -15,13 +13,13 @@ without δ: the tip creeps by R/(impratio b) metres per second and newton, a ten
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import mujoco
 import numpy as np
 
 from inspect_cli.schema.truth import TruePlatform
-from inspect_cli.spatial.arrays import Structured, Vector
-from inspect_cli.spatial.primitives import CYLINDER, PLANE, normal_at, point_at
-from inspect_cli.spatial.rotations import matrix_to_quaternion
+from inspect_cli.simulation.surface_geoms import add_surfaces
 from inspect_cli.truth.geometry import StructureTruth
 from inspect_cli.vehicles.kinds import Tip, Vehicle
 
@@ -30,10 +28,11 @@ FRICTION_STIFFENING = 1000.0
 """MuJoCo's ``impratio``: how much less friction yields than the normal direction."""
 FRICTION_DAMPING_PS = 100.0
 """b of the friction, 1/s; well below the physics rate, so that a stuck tip does not chatter."""
-WALL_THICKNESS_M = 0.2
-FACET_SAGITTA_M = 0.0005
-"""How far a tangent box may stand off a concave surface."""
 GROUND_FRICTION = 0.8
+WALL_SENSOR = "wall_sensor:"
+"""How the names begin of what measures the contact of the tip with one geom."""
+NET_FORCE = 3
+"""MuJoCo's reduction of all contacts to their net force at its centre."""
 
 
 def build_world(
@@ -44,8 +43,9 @@ def build_world(
     spec.option.impratio = FRICTION_STIFFENING
     _change_masses(spec, platform)
     _add_ground(spec)
-    pairs = _add_surfaces(spec, structure)
-    for name, friction in pairs:
+    met = add_surfaces(spec, structure)
+    for name, surface in zip(met, structure.surfaces, strict=True):
+        friction = surface.friction
         spec.add_pair(
             name=f"tip:{name}",
             geomname1="tip",
@@ -55,8 +55,9 @@ def build_world(
         )
     _add_contact_sensor(spec, "tool")
     _add_contact_sensor(spec, "shell")
+    _add_wall_sensors(spec, structure, met)
     model = spec.compile()
-    _set_tip_contact(model, vehicle.tip, len(pairs))
+    _set_tip_contact(model, vehicle.tip, len(met))
     return model
 
 
@@ -79,90 +80,37 @@ def _add_ground(spec: mujoco.MjSpec) -> None:
     )
 
 
-def _add_surfaces(spec: mujoco.MjSpec, structure: StructureTruth) -> list[tuple[str, float]]:
-    """Add every surface's geoms; return (geom's name, friction) of each."""
-    pairs = []
-    for index, surface in enumerate(structure.surfaces):
-        prims = structure.primitives[index : index + 1]
-        if prims["kind"][0] == PLANE or prims["side"][0] < 0:
-            names = _add_facets(spec, surface.name, prims)
-        else:
-            names = [_add_round(spec, surface.name, prims)]
-        pairs += [(name, surface.friction) for name in names]
-    return pairs
-
-
-def _add_round(spec: mujoco.MjSpec, name: str, prims: Structured) -> str:
-    row = prims[0]
-    is_cylinder = row["kind"] == CYLINDER
-    # MuJoCo's cylinder lies along its z; the surface frame's axis is its y.
-    turn = np.array([[1.0, 0.0, 0.0], [0.0, 0.0, 1.0], [0.0, -1.0, 0.0]])
-    spec.worldbody.add_geom(
-        name=name,
-        type=mujoco.mjtGeom.mjGEOM_CYLINDER if is_cylinder else mujoco.mjtGeom.mjGEOM_SPHERE,
-        size=[row["radius"], row["half_size"][1] if is_cylinder else 0.0, 0.0],
-        pos=row["p_WS"],
-        quat=matrix_to_quaternion(np.ascontiguousarray(row["R_WS"] @ turn)),
-        contype=1,
-        conaffinity=0,
-    )
-    return name
-
-
-def _add_facets(spec: mujoco.MjSpec, name: str, prims: Structured) -> list[str]:
-    """Boxes whose fronts are tangent to the surface; a plane is one of them."""
-    half = prims["half_size"][0]
-    counts = (1, 1)
-    if prims["kind"][0] != PLANE:
-        radius = prims["radius"][0]
-        is_cylinder = prims["kind"][0] == CYLINDER
-        # A facet's corner stands off by w²/8r, and on a sphere by as much again.
-        width = np.sqrt((8.0 if is_cylinder else 4.0) * radius * FACET_SAGITTA_M)
-        along = 1 if is_cylinder else int(np.ceil(2.0 * half[1] / width))
-        counts = (int(np.ceil(2.0 * half[0] / width)), along)
-    size = half / np.array(counts)
-    names = []
-    for i in range(counts[0]):
-        for j in range(counts[1]):
-            u = -half[0] + (2 * i + 1) * size[0]
-            v = -half[1] + (2 * j + 1) * size[1]
-            names.append(_add_box(spec, f"{name}:{i}:{j}", prims, u, v, size))
-    return names
-
-
-def _add_box(
-    spec: mujoco.MjSpec, name: str, prims: Structured, u: float, v: float, half: Vector
-) -> str:
-    n = normal_at(prims, 0, u, v)
-    front = point_at(prims, 0, u, v)
-    ahead = point_at(prims, 0, u + 1e-4, v) - front
-    x = ahead - n * (n @ ahead)
-    x /= np.linalg.norm(x)
-    R = np.column_stack([x, np.cross(n, x), n])
-    spec.worldbody.add_geom(
-        name=name,
-        type=mujoco.mjtGeom.mjGEOM_BOX,
-        size=[half[0], half[1], 0.5 * WALL_THICKNESS_M],
-        pos=front - 0.5 * WALL_THICKNESS_M * n,
-        quat=matrix_to_quaternion(np.ascontiguousarray(R)),
-        contype=1,
-        conaffinity=0,
-        rgba=[0.75, 0.74, 0.72, 1.0],
-    )
-    return name
-
-
 def _add_contact_sensor(spec: mujoco.MjSpec, body: str) -> None:
     """Net contact force of a body with everything, in W."""
     force = 1 << int(mujoco.mjtConDataField.mjCONDATA_FORCE)
-    net_force = 3
     spec.add_sensor(
         name=f"contact_{body}",
         type=mujoco.mjtSensor.mjSENS_CONTACT,
         objtype=mujoco.mjtObj.mjOBJ_BODY,
         objname=body,
-        intprm=[force, net_force, 1],
+        intprm=[force, NET_FORCE, 1],
     )
+
+
+def _add_wall_sensors(spec: mujoco.MjSpec, structure: StructureTruth, met: Sequence[str]) -> None:
+    """What the tip does to the geom that it meets of each surface with a force sensor.
+
+    Net force, torque and position in W; the torque is about the position. MuJoCo evaluates them
+    in every step, so that a world without such a surface has none.
+    """
+    kinds = ("FORCE", "TORQUE", "POS")
+    asked = sum(1 << int(getattr(mujoco.mjtConDataField, f"mjCONDATA_{kind}")) for kind in kinds)
+    for name, surface in zip(met, structure.surfaces, strict=True):
+        if surface.force_sensor is not None:
+            spec.add_sensor(
+                name=f"{WALL_SENSOR}{name}",
+                type=mujoco.mjtSensor.mjSENS_CONTACT,
+                objtype=mujoco.mjtObj.mjOBJ_GEOM,
+                objname="tip",
+                reftype=mujoco.mjtObj.mjOBJ_GEOM,
+                refname=name,
+                intprm=[asked, NET_FORCE, 1],
+            )
 
 
 def _set_tip_contact(model: mujoco.MjModel, tip: Tip, n_pairs: int) -> None:

@@ -15,10 +15,10 @@ from typing import Any
 import numpy as np
 
 from inspect_cli.errors import InspectError
+from inspect_cli.scans.files import confined, refused, require_file
 from inspect_cli.schema.mission import Mission
 from inspect_cli.schema.tasks import MAX_POINTS, SHORTEST_M, Trace
 from inspect_cli.spatial.arrays import Points, Vector
-from inspect_cli.structure.files import confined, refused, require_file
 
 Stroke = tuple[Points, ...]
 

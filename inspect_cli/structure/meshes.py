@@ -1,4 +1,4 @@
-"""Reading meshes, as points sampled evenly over their faces."""
+"""Meshes as points sampled evenly over their faces."""
 
 from __future__ import annotations
 
@@ -6,67 +6,19 @@ from pathlib import Path
 
 import numpy as np
 
+from inspect_cli.scans.files import ReadPoints
+from inspect_cli.scans.meshes import doubled_normals, read_triangles
 from inspect_cli.spatial.arrays import Points, Vector
-from inspect_cli.structure.files import (
-    ReadPoints,
-    muted_stderr,
-    open3d,
-    refused,
-    require_file,
-    truncated,
-)
-from inspect_cli.structure.headers import require_whole_stl, whole_ply
-
-SUFFIXES = (".stl", ".obj", ".ply")
 
 
 def read_mesh(path: Path, samples: int, rng: np.random.Generator) -> ReadPoints:
     """``samples`` points, uniform over the area of the mesh's triangles, m.
 
-    STL, OBJ or PLY, told by the suffix. Triangles with an invalid corner are dropped and
-    counted. Raises GeometryError where the file is missing, empty, damaged, truncated or
-    without faces. An OBJ file does not say how many faces it should have: a cut is noticed
-    only where it leaves a broken line.
+    Raises GeometryError for what ``read_triangles`` refuses.
     """
-    suffix = require_file(path, SUFFIXES, "mesh")
-    promised = 0
-    if suffix == ".stl":
-        require_whole_stl(path)
-    if suffix == ".ply":
-        promised = whole_ply(path).count("face")
-        if promised == 0:
-            raise _without_faces(path)
-    module = open3d()
-    with muted_stderr():
-        mesh = module.io.read_triangle_mesh(str(path))
-    vertices, triangles = np.asarray(mesh.vertices), np.asarray(mesh.triangles)
-    if len(triangles) == 0:
-        raise _without_faces(path)
-    if len(triangles) < promised:
-        raise truncated(path, f"{promised} faces", str(len(triangles)))
-    corners = vertices[triangles]
-    valid = np.all(np.isfinite(corners), axis=(1, 2))
-    if not valid.any():
-        raise refused(path, "every face has an invalid corner", "export the mesh again")
-    corners = corners[valid]
-    area = 0.5 * np.linalg.norm(_doubled_normals(corners), axis=1)
-    if not area.sum() > 0.0:
-        raise refused(path, "the faces have no area", "export the mesh again")
-    points = _sampled(corners, area, samples, rng)
-    return ReadPoints(points, int(np.count_nonzero(~valid)))
-
-
-def _without_faces(path: Path) -> Exception:
-    return refused(
-        path,
-        "the mesh has no faces, or they cannot be read",
-        "export it with its faces, or give a file of points under 'cloud'",
-    )
-
-
-def _doubled_normals(corners: Points) -> Points:
-    a, b, c = corners[:, 0], corners[:, 1], corners[:, 2]
-    return np.cross(b - a, c - a)
+    read = read_triangles(path)
+    area = 0.5 * np.linalg.norm(doubled_normals(read.corners), axis=1)
+    return ReadPoints(_sampled(read.corners, area, samples, rng), read.dropped)
 
 
 def _sampled(corners: Points, area: Vector, samples: int, rng: np.random.Generator) -> Points:

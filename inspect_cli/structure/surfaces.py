@@ -8,12 +8,12 @@ from pathlib import Path
 import numpy as np
 
 from inspect_cli.errors import GeometryError, Location, Problem
+from inspect_cli.scans.clouds import read_cloud
+from inspect_cli.scans.files import ReadPoints, confined, open3d
 from inspect_cli.schema.mission import CropBox, Mission, StructureSurface, SurfaceSource
 from inspect_cli.schema.plan import FitReport, PlannedSurface
 from inspect_cli.schema.primitives import displaced, displaced_points
 from inspect_cli.spatial.arrays import Points, Vector
-from inspect_cli.structure.clouds import read_cloud
-from inspect_cli.structure.files import ReadPoints, confined, open3d
 from inspect_cli.structure.fit import Fit
 from inspect_cli.structure.fitting import fit_primitive
 from inspect_cli.structure.meshes import read_mesh

@@ -9,6 +9,8 @@ from inspect_cli.records import State, TrueContact
 from inspect_cli.spatial.arrays import Structured, Vector
 from inspect_cli.spatial.primitives import normal_at, patch_distance, project
 from inspect_cli.truth.geometry import StructureTruth
+from inspect_cli.truth.relief import relief_foot, relief_normal
+from inspect_cli.truth.solids import Solids
 
 
 @kernel
@@ -36,6 +38,26 @@ def nearest_surface(prims: Structured, p_W: Vector, contact: Structured) -> int:
     return index
 
 
+@kernel
+def nearer_relief(solids: Solids, p_W: Vector, contact: Structured, index: int) -> int:
+    """Write over the ``index``-th surface where a relief is nearer; return the nearest's index."""
+    row = contact[0]
+    nearest = abs(row["distance"]) if index >= 0 else np.inf
+    for i in range(solids.reliefs.shape[0]):
+        u, v, w, _ = relief_foot(solids.reliefs, solids.nodes, i, p_W)
+        if abs(w) >= nearest:
+            continue
+        nearest, index = abs(w), solids.primitives.shape[0] + i
+        row["surface"] = index
+        row["distance"] = w
+        normal = relief_normal(solids.reliefs, solids.nodes, i, u, v)
+        row["uv"][0] = u
+        row["uv"][1] = v
+        for k in range(3):
+            row["n_W"][k] = normal[k]
+    return index
+
+
 class ContactTruth:
     """Keeps a TrueContact up to date."""
 
@@ -46,7 +68,10 @@ class ContactTruth:
     def update(self, state: State) -> TrueContact:
         """The truth at the tip now."""
         contact = self.contact
-        index = nearest_surface(self._structure.primitives, state.views["p_WT"], contact.array)
+        solids, p_WT = self._structure.solids, state.views["p_WT"]
+        index = nearest_surface(solids.primitives, p_WT, contact.array)
+        if len(solids.reliefs):
+            index = nearer_relief(solids, p_WT, contact.array, index)
         contact.t_s = state.t_s
         specimen = self._structure.surfaces[index].specimen if index >= 0 else None
         if specimen is None:

@@ -1,4 +1,4 @@
-"""Sensor faults of a mission: when a sensor is silent or talks nonsense."""
+"""Sensor faults of a mission: when a sensor is silent, talks nonsense or sees but in part."""
 
 from __future__ import annotations
 
@@ -8,6 +8,10 @@ import numpy as np
 
 from inspect_cli.records import Record
 from inspect_cli.schema.truth import SensorFault
+from inspect_cli.spatial.arrays import Points
+
+PATCH_PIXELS = (3, 10)
+"""A patch without a return is from 3 up to 9 pixels wide and as much high."""
 
 
 class Faults:
@@ -30,3 +34,24 @@ def spoil(measurement: Record) -> None:
     for name, view in measurement.views.items():
         if name != "t_s":
             view[...] = np.nan
+
+
+def punch_holes(points: Points, share: float, rng: np.random.Generator) -> None:
+    """Take a share of an image's pixels away, in random rectangles that may overlap.
+
+    ``points`` (rows, columns, 3) become NaN there. The rounded share is met to the pixel: of the
+    last rectangle only as many go as are still wanted. Pixels that returned nothing count as well,
+    since a fault of the sensor does not know what it would have seen.
+    """
+    rows, columns = points.shape[:2]
+    lost = np.zeros((rows, columns), np.bool_)
+    wanted = round(share * lost.size)
+    missing = wanted
+    while missing > 0:
+        high, wide = rng.integers(*PATCH_PIXELS, size=2)
+        top, left = rng.integers(1 - high, rows), rng.integers(1 - wide, columns)
+        patch = lost[max(top, 0) : top + high, max(left, 0) : left + wide]
+        fresh = np.argwhere(~patch)[:missing]
+        patch[fresh[:, 0], fresh[:, 1]] = True
+        missing -= len(fresh)
+    points[lost] = np.nan

@@ -1,16 +1,21 @@
-"""The true structure: what the planner believes, replaced, moved or removed by ``truth:``."""
+"""The true structure: what is believed, replaced, moved, removed or added to by ``truth:``.
+
+Surfaces that are bounded primitives come first, in the order of belief and then of the truth's
+file; those that are reliefs follow. A surface's place in this order is its number everywhere.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
-from inspect_cli.schema.geometry import Shape
+from inspect_cli.schema.geometry import MeshShape, TrueShape
 from inspect_cli.schema.plan import PlannedSurface
 from inspect_cli.schema.primitives import displaced, primitives_of
-from inspect_cli.schema.truth import TrueSurface, TruthModel
-from inspect_cli.spatial.arrays import Structured
+from inspect_cli.schema.truth import ForceSensorModel, TrueSurface, TruthModel
+from inspect_cli.truth.heights import MeshRelief, mesh_relief
+from inspect_cli.truth.solids import Solids, joined_reliefs
 from inspect_cli.truth.specimen import SpecimenField, load_specimen
 
 
@@ -19,29 +24,59 @@ class SurfaceTruth:
     """One surface as it is."""
 
     name: str
-    shape: Shape
+    shape: TrueShape
     friction: float
     specimen: SpecimenField | None
+    relief: MeshRelief | None = None
+    """The heights of a mesh."""
+    force_sensor: ForceSensorModel | None = None
 
 
 @dataclass(frozen=True)
 class StructureTruth:
-    """Every surface that is there, and the same as primitives (n,) for kernels."""
+    """Every surface that is there, and the same for kernels, in the same order."""
 
     surfaces: tuple[SurfaceTruth, ...]
-    primitives: Structured
+    solids: Solids
 
 
 def true_structure(
     truth: TruthModel, believed: Sequence[PlannedSurface], root: Path
 ) -> StructureTruth:
-    """The true surfaces; ``root`` is the folder that specimen files are relative to."""
+    """The true surfaces; ``root`` is the folder that the files of the truth are relative to.
+
+    Raises InputError for a specimen or a mesh that cannot be used.
+    """
     surfaces = []
+    for name, shape, entry in _there(truth, believed):
+        relief = mesh_relief(shape, entry.moved, root) if isinstance(shape, MeshShape) else None
+        if not isinstance(shape, MeshShape):
+            shape = displaced(shape, entry.moved)
+        specimen = load_specimen(entry.specimen, root) if entry.specimen else None
+        sensor = entry.force_sensor
+        surfaces.append(SurfaceTruth(name, shape, entry.friction, specimen, relief, sensor))
+    return structure_of(surfaces)
+
+
+def structure_of(surfaces: Sequence[SurfaceTruth]) -> StructureTruth:
+    """The structure that consists of these surfaces."""
+    primitives = [s for s in surfaces if not isinstance(s.shape, MeshShape)]
+    reliefs = [(s, s.relief) for s in surfaces if s.relief is not None]
+    shapes = [s.shape for s in primitives if not isinstance(s.shape, MeshShape)]
+    rows, nodes = joined_reliefs([(relief.row, relief.nodes) for _, relief in reliefs])
+    ordered = (*primitives, *(s for s, _ in reliefs))
+    return StructureTruth(ordered, Solids(primitives_of(shapes), rows, nodes))
+
+
+def _there(
+    truth: TruthModel, believed: Sequence[PlannedSurface]
+) -> Iterator[tuple[str, TrueShape, TrueSurface]]:
+    """(name, shape before its displacement, truth) of what is there."""
     for belief in believed:
         entry = truth.structure.get(belief.name, TrueSurface())
-        if entry.absent:
-            continue
-        shape = displaced(entry.geometry or belief.shape, entry.moved)
-        specimen = load_specimen(entry.specimen, root) if entry.specimen else None
-        surfaces.append(SurfaceTruth(belief.name, shape, entry.friction, specimen))
-    return StructureTruth(tuple(surfaces), primitives_of([s.shape for s in surfaces]))
+        if not entry.absent:
+            yield belief.name, entry.geometry or belief.shape, entry
+    known = {belief.name for belief in believed}
+    for name, entry in truth.structure.items():
+        if name not in known and entry.geometry is not None and not entry.absent:
+            yield name, entry.geometry, entry

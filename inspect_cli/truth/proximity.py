@@ -22,7 +22,10 @@ import numpy as np
 from inspect_cli.compiled import kernel
 from inspect_cli.schema.truth import ProximityEffects
 from inspect_cli.spatial.arrays import Indices, Matrix, Points, Structured
-from inspect_cli.spatial.primitives import patch_distance, plane, raycast
+from inspect_cli.spatial.primitives import patch_distance, raycast
+from inspect_cli.truth.relief import relief_foot
+from inspect_cli.truth.relief_rays import cast_on_reliefs
+from inspect_cli.truth.solids import Solids, on_the_ground
 
 REACH_M = 2.0
 """Beyond this a surface has no effect worth computing."""
@@ -55,6 +58,7 @@ def wall_factor(distance_m: float, radius_m: float) -> float:
 @kernel
 def set_thrust_factors(
     surfaces: Structured,
+    near: Points,
     site_xpos: Points,
     site_xmat: Points,
     hubs: Indices,
@@ -67,7 +71,9 @@ def set_thrust_factors(
     """Write the factor of each hub into the first column of ``gains``.
 
     ``hubs`` (n,) are the sites of the rotors, in MuJoCo's arrays of positions and rotations; a
-    rotor's thrust is along its site's z. The first of ``surfaces`` is the ground, no wall.
+    rotor's thrust is along its site's z. The first of ``surfaces`` is the ground, no wall. ``near``
+    (n, 3) are distances from other things: along the thrust, against it and to the nearest, m;
+    NaN along a direction in which there is nothing.
     """
     directions = np.empty((2, 3))
     ranges = np.empty(2)
@@ -77,13 +83,16 @@ def set_thrust_factors(
             directions[0, k] = site_xmat[hubs[i], 3 * k + 2]
             directions[1, k] = -directions[0, k]
         raycast(surfaces, hub_W, directions, REACH_M, ranges)
+        for k in range(2):
+            if not ranges[k] <= near[i, k] and not np.isnan(near[i, k]):
+                ranges[k] = near[i, k]
         factor = 1.0
         if ceiling and not np.isnan(ranges[0]):
             factor *= ceiling_factor(ranges[0], radius_m)
         if ground and not np.isnan(ranges[1]):
             factor *= ground_factor(ranges[1], radius_m)
         if wall:
-            nearest = REACH_M
+            nearest = min(near[i, 2], REACH_M)
             for j in range(1, surfaces.shape[0]):
                 nearest = min(nearest, abs(patch_distance(surfaces, j, hub_W)))
             if nearest < REACH_M:
@@ -91,14 +100,40 @@ def set_thrust_factors(
         gains[i, 0] = factor
 
 
+@kernel
+def near_reliefs(
+    reliefs: Structured,
+    nodes: Matrix,
+    site_xpos: Points,
+    site_xmat: Points,
+    hubs: Indices,
+    near: Points,
+) -> None:
+    """Write the reliefs' distances from each hub into ``near``; see ``set_thrust_factors``."""
+    directions = np.empty((2, 3))
+    ranges = np.empty(2)
+    for i in range(hubs.shape[0]):
+        hub_W = site_xpos[hubs[i]]
+        for k in range(3):
+            directions[0, k] = site_xmat[hubs[i], 3 * k + 2]
+            directions[1, k] = -directions[0, k]
+        ranges[:] = np.nan
+        cast_on_reliefs(reliefs, nodes, hub_W, directions, REACH_M, ranges)
+        near[i, 0] = ranges[0]
+        near[i, 1] = ranges[1]
+        near[i, 2] = np.inf
+        for j in range(reliefs.shape[0]):
+            near[i, 2] = min(near[i, 2], abs(relief_foot(reliefs, nodes, j, hub_W)[2]))
+
+
 class Proximity:
     """The effect of the true surfaces and the ground on a vehicle's rotors."""
 
-    def __init__(self, effects: ProximityEffects, primitives: Structured, radius_m: float) -> None:
-        ground = plane(np.zeros(3), np.array([0.0, 0.0, 1.0]), (200.0, 200.0))
-        self._surfaces = np.concatenate([ground, primitives])
+    def __init__(self, effects: ProximityEffects, solids: Solids, radius_m: float) -> None:
+        self._solids = on_the_ground(solids)
         self._effects = effects
         self._radius_m = radius_m
+        self._near = np.zeros((0, 3))
 
     @property
     def any(self) -> bool:
@@ -107,9 +142,14 @@ class Proximity:
 
     def update(self, site_xpos: Points, site_xmat: Points, hubs: Indices, gains: Matrix) -> None:
         """Set each rotor's gain to its factor; see ``set_thrust_factors``."""
-        effects = self._effects
+        effects, solids = self._effects, self._solids
+        if len(self._near) != len(hubs):
+            self._near = np.tile([np.nan, np.nan, np.inf], (len(hubs), 1))
+        if len(solids.reliefs):
+            near_reliefs(solids.reliefs, solids.nodes, site_xpos, site_xmat, hubs, self._near)
         set_thrust_factors(
-            self._surfaces,
+            solids.primitives,
+            self._near,
             site_xpos,
             site_xmat,
             hubs,

@@ -16,6 +16,7 @@ from typing import Protocol
 import mujoco
 
 from inspect_cli.interfaces import Capabilities, FlightStack
+from inspect_cli.schema.positioning import Estimation
 from inspect_cli.schema.vehicle import PlatformBase
 from inspect_cli.spatial.arrays import Vector
 
@@ -69,6 +70,6 @@ class Vehicle(Protocol):
         """The nominal MuJoCo model, in free space."""
         ...
 
-    def flight_stack(self) -> FlightStack:
-        """A fresh stack of estimation and control."""
+    def flight_stack(self, estimation: Estimation = "external") -> FlightStack:
+        """A fresh stack of estimation and control, which gets its poses from there."""
         ...

@@ -1,6 +1,6 @@
 """The flight stack that every fully actuated vehicle of ours shares; allocation is its own.
 
-IMU ─▶ error-state filter ◀─ pose        (estimate)
+IMU ─▶ error-state filter ◀─ pose        (estimate; of the tracker or of the odometry)
           │
           ▼
 momentum observer ─▶ selective impedance ─▶ allocation ─▶ command
@@ -19,6 +19,7 @@ from inspect_cli.estimation.error_state import ErrorStateFilter
 from inspect_cli.estimation.wrench_observer import WrenchObserver
 from inspect_cli.interfaces import Capabilities, at_origin
 from inspect_cli.records import Command, Estimate, Imu, Pose, Reference
+from inspect_cli.schema.positioning import Estimation
 from inspect_cli.schema.vehicle import PlatformBase
 from inspect_cli.spatial.arrays import Vector
 
@@ -40,11 +41,13 @@ class ImpedanceStack:
         capabilities: Capabilities,
         body: RigidBody,
         allocation: Allocation,
+        estimation: Estimation = "external",
     ) -> None:
         rates, control = platform.rates, platform.control
         self.estimate = Estimate.create()
         self.command = Command.create(capabilities.lengths)
-        self._filter = ErrorStateFilter(platform.sensors.imu, platform.sensors.pose, rates.imu_hz)
+        noise, pose_hz = platform.positioning(estimation)
+        self._filter = ErrorStateFilter(platform.sensors.imu, noise, rates.imu_hz, pose_hz)
         self._observer = WrenchObserver(
             body.mass_kg,
             body.inertia_B,

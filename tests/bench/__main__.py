@@ -10,7 +10,7 @@ from rich.table import Table
 
 from inspect_cli.files import write_whole
 from inspect_cli.schema.loading import load_mission
-from tests.bench import fits, flights, processes
+from tests.bench import camera, fits, flights, processes
 from tests.bench.rows import Row, as_json
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -23,6 +23,7 @@ def main() -> int:
     rows: list[Row] = []
     for measured in (
         fits.measure(),
+        camera.measure(ROOT),
         flights.measure(load_mission(MISSION)),
         processes.measure(MISSION),
     ):

@@ -24,9 +24,12 @@ SUFFIXES = {
     "s": ("_s",),
     "Wh": ("_wh_planned",),
     "m/s": ("_mps",),
+    "m/N": ("_per_newton",),
+    "rad/(N·m)": ("_per_nm",),
     "1": (
-        *("_cv", "_count", "_gaps", "_mask", "_mismatches", "_points", "_rel_max"),
-        *("_share", "_total", "_valid"),
+        *("_growth", "_over_hovering"),
+        *("_cv", "_count", "_gaps", ".gaps", "_mask", "_mismatches", "_points", "_rel_max"),
+        *("_share", "_total", "_valid", "_over_attitude", "_over_z"),
     ),
 }
 """How the names of metrics end, by their unit."""

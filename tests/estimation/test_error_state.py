@@ -12,9 +12,10 @@ from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 from scipy.stats import chi2
 
-from inspect_cli.estimation.error_state import GATE, RESTART_AFTER, ErrorStateFilter
+from inspect_cli.estimation.error_state import GATE, ErrorStateFilter
 from inspect_cli.records import Estimate, Imu, Pose
-from inspect_cli.schema.vehicle import ImuModel, PoseModel
+from inspect_cli.schema.positioning import PoseModel
+from inspect_cli.schema.vehicle import ImuModel
 
 Array = NDArray[np.float64]
 IMU_HZ, POSE_HZ = 250, 100
@@ -92,7 +93,7 @@ class Run:
         self.seen_p = self.truth.p + pose.position_noise_m * rng.normal(size=(n, 3))
         turn = Rotation.from_rotvec(pose.attitude_noise_rad * rng.normal(size=(n, 3)))
         self.seen_R = self.truth.R * turn
-        self.filter = ErrorStateFilter(imu, pose, IMU_HZ)
+        self.filter = ErrorStateFilter(imu, pose, IMU_HZ, POSE_HZ)
         self.estimate = Estimate.create()
         self._imu, self._pose = Imu.create(), Pose.create()
 
@@ -212,8 +213,9 @@ def test_a_tracker_that_moved_for_good_is_believed_in_the_end() -> None:
         good = run.tick(k)
         if k >= 1500 and k % 5 == 0:
             accepted.append(good)
-    assert accepted.index(True) == RESTART_AFTER - 1
-    assert all(accepted[RESTART_AFTER:])
+    assert run.filter.restart_after == 20  # 0.2 s at 100 Hz
+    assert accepted.index(True) == 19
+    assert all(accepted[20:])
     error = run.error(run.ticks - 1)
     assert (np.abs(error) < 4.5 * run.estimate.sigma).all()
 

@@ -7,7 +7,12 @@ import pytest
 from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 
-from inspect_cli.estimation.kalman import correct_pose, pose_innovation, propagate
+from inspect_cli.estimation.kalman import (
+    correct_pose,
+    frame_drifts,
+    pose_innovation,
+    propagate,
+)
 
 Array = NDArray[np.float64]
 H = np.zeros((6, 15))
@@ -167,3 +172,17 @@ def test_nothing_changes_beyond_the_gate(innovation: Array) -> None:
     assert (belief.minus(before)[:6] == 0.0).all()
     assert np.array_equal(belief.q, before.q)
     assert np.array_equal(P, P_before)
+
+
+def test_a_drifting_frame_adds_what_its_random_walks_say() -> None:
+    """The yaw of the world in the attitude error's frame: R_true = R_z(ψ) R = R Exp(Rᵀ z ψ)."""
+    rng = np.random.default_rng(5)
+    belief, P = Belief.random(rng), random_covariance(rng)
+    rate, walks, dt = np.array([0.3, -0.2, 0.4]), np.array([0.02, 0.03, 0.05]), 0.04
+    distance, angle = dt * np.linalg.norm(belief.v), dt * np.linalg.norm(rate)
+    axis = belief.R.as_matrix().T @ [0.0, 0.0, 1.0]
+    expected = P.copy()
+    expected[:3, :3] += walks[0] ** 2 * distance * np.eye(3)
+    expected[6:9, 6:9] += (walks[1] ** 2 * distance + walks[2] ** 2 * angle) * np.outer(axis, axis)
+    frame_drifts(P, belief.q, belief.v, rate, walks, dt)
+    np.testing.assert_allclose(P, expected, atol=1e-15)

@@ -15,6 +15,7 @@ from inspect_cli.spatial.rotations import (
     quaternion_to_matrix,
     roll_pitch_yaw_matrix,
 )
+from inspect_cli.truth.solids import Solids
 
 P_BT = np.array([0.55, 0.0, 0.0])
 R_BT = np.array([[0.0, 0.0, 1.0], [0.0, 1.0, 0.0], [-1.0, 0.0, 0.0]])
@@ -54,7 +55,7 @@ def fit(points_D, estimate, out, noise_floor_m=0.004):
 
 
 def look(primitives, state, estimate, noise_floor_m=0.0, seed=1):
-    camera = TofCamera(model(noise_floor_m), primitives, np.random.default_rng(seed))
+    camera = TofCamera(model(noise_floor_m), Solids(primitives), np.random.default_rng(seed))
     camera.sample(state)
     out = SurfaceEstimate.create()
     fit(camera.points_D, estimate, out, noise_floor_m)

@@ -16,6 +16,7 @@ from inspect_cli.schema.vehicle import TofModel
 from inspect_cli.sensing.tof import TofCamera
 from inspect_cli.spatial.primitives import plane
 from inspect_cli.spatial.rotations import matrix_to_quaternion, rotate
+from inspect_cli.truth.solids import Solids
 
 MOTION = ("p_WB", "q_WB", "v_WB_W", "w_WB_B", "a_WB_W", "alpha_WB_B", "p_WT")
 Y_NORTH = np.array([0.0, 1.0, 0.0])
@@ -195,7 +196,7 @@ def test_camera_and_pursuit_together_find_a_wall_that_is_not_where_it_was_planne
         noise_floor_m=0.004,
         neighbourhood_m=0.1,
     )
-    camera = TofCamera(model, plane(p_true, n_true, [4, 4]), np.random.default_rng(2))
+    camera = TofCamera(model, Solids(plane(p_true, n_true, [4, 4])), np.random.default_rng(2))
     local = LocalSurface(model)
     state = State.create(vehicle.lengths)
     surface = SurfaceEstimate.create()

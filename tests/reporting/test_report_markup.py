@@ -8,10 +8,10 @@ import numpy as np
 import pytest
 from report_pages import decoded
 
+from inspect_cli.reporting.checks_table import bounds
 from inspect_cli.reporting.figure import merged, numbers
 from inspect_cli.reporting.markup import Markup, data_script, element, joined
 from inspect_cli.reporting.table import Column, number, significant, table
-from inspect_cli.reporting.tables import bounds
 
 
 def test_elements_escape_text_and_attributes() -> None:

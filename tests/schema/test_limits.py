@@ -65,6 +65,32 @@ SURFACE = "m.yaml:7:14: structure[0].surface"
             "  faults: [{sensor: tof, start_s: 5, end_s: 5}]\nacceptance:",
             "m.yaml:27:12: truth.faults[0]: end_s 5 must be after start_s 5",
         ),
+        (
+            "acceptance:",
+            "  faults: [{sensor: pose, fault: holes, share: 0.5}]\nacceptance:",
+            "m.yaml:27:12: truth.faults[0]: only the images of tof have holes; "
+            "pose can be off or nan",
+        ),
+        (
+            "acceptance:",
+            "  faults: [{sensor: tof, fault: holes}]\nacceptance:",
+            "m.yaml:27:12: truth.faults[0]: holes need a share of the pixels, such as share: 0.5",
+        ),
+        (
+            "acceptance:",
+            "  faults: [{sensor: tof, fault: nan, share: 0.5}]\nacceptance:",
+            "m.yaml:27:12: truth.faults[0]: share goes with fault: holes; nan takes everything",
+        ),
+        (
+            "acceptance:",
+            "  faults: [{sensor: tof, fault: holes, share: 1.0}]\nacceptance:",
+            "m.yaml:27:47: truth.faults[0].share: must be below 1; found 1.0",
+        ),
+        (
+            "acceptance:",
+            "  faults: [{sensor: tof, fault: hole}]\nacceptance:",
+            "choices: off, nan, holes",
+        ),
     ],
 )
 def test_limits_of_a_mission(refusal: Refusal, old: str, new: str, message: str) -> None:
@@ -78,7 +104,7 @@ def test_limits_of_a_mission(refusal: Refusal, old: str, new: str, message: str)
         (
             "inertia_kgm2: [0.0090, 0.0131, 0.0164]",
             "inertia_kgm2: [0.0090, 0.0131, 0.0222]",
-            "p.yaml:29:17: core.inertia_kgm2: no body has these moments of inertia: "
+            "p.yaml:37:17: core.inertia_kgm2: no body has these moments of inertia: "
             "0.0222 about z is more than the sum of the other two, 0.0221",
         ),
         (

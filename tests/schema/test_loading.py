@@ -188,7 +188,8 @@ def test_the_resolved_mission_survives_json(campaign: Path) -> None:
             [
                 "m.yaml:3:11: platform: no platform is named 'tilt_rotor_hexarotr'\n"
                 "    did you mean 'tilt_rotor_hexarotor'? "
-                "choices: tilt_rotor_hexarotor, tilt_rotor_hexarotor_30"
+                "choices: tilt_rotor_hexarotor, tilt_rotor_hexarotor_30, "
+                "tilt_rotor_hexarotor_force_evaluation"
             ],
         ),
         (
@@ -197,7 +198,8 @@ def test_the_resolved_mission_survives_json(campaign: Path) -> None:
             [
                 "m.yaml:23:5: truth.structure.wahl: "
                 "the truth of a surface that is not there: 'wahl'\n"
-                "    did you mean 'wall'? choices: wall, tank"
+                "    did you mean 'wall'? choices: wall, tank; "
+                "one that only the truth knows states its geometry"
             ],
         ),
         (
@@ -232,6 +234,63 @@ def test_an_unknown_impedance_profile_lists_those_there_are(refusal: Refusal) ->
     assert message.startswith(
         "m.yaml:4:12: impedance: tilt_rotor_hexarotor has no impedance profile 'contact_ntd'\n"
         "    did you mean 'contact_ndt'? choices: "
+    )
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "message"),
+    [
+        (
+            "      friction: 0.4\n",
+            "      friction: 0.4\n      force_sensor: {rate_hz: 800}\n",
+            "m.yaml:25:21: truth.structure.wall.force_sensor: rate_hz 800 does not divide "
+            "physics_hz 1000 of tilt_rotor_hexarotor\n    the nearest that does is 1000; "
+            "or fly a platform with a faster physics_hz",
+        ),
+        (
+            "acceptance:",
+            "  faults: [{sensor: odometry}]\nacceptance:",
+            "m.yaml:27:21: truth.faults[0].sensor: estimation external flies on pose; "
+            "a fault of another has no effect\n    choices: pose",
+        ),
+        (
+            "seeds: [1, 2]",
+            "estimation: on-board",
+            "m.yaml:4:13: estimation: no such choice: on-board\n"
+            "    did you mean 'onboard'? choices: external, onboard",
+        ),
+    ],
+)
+def test_what_the_mission_asks_for_and_does_not_get(
+    refusal: Refusal, old: str, new: str, message: str
+) -> None:
+    assert message in refusal(old, new)[0]
+
+
+def test_onboard_estimation_needs_a_platform_with_odometry(campaign: Path) -> None:
+    text = (builtin_root() / "platforms" / "tilt_rotor_hexarotor.yaml").read_text()
+    begin, end = text.index("  odometry:\n    position_noise_m"), text.index("  tof:\n")
+    platform = campaign / "platforms" / "tilt_rotor_hexarotor.yaml"
+    platform.write_text(text[:begin] + text[end:])
+    mission = campaign / "missions" / "m.yaml"
+    assert load_mission(mission).platform.sensors.odometry is None
+    mission.write_text(mission.read_text().replace("seeds: [1, 2]", "estimation: onboard"))
+    with pytest.raises(SchemaError) as caught:
+        load_mission(mission)
+    assert str(caught.value).endswith(
+        "m.yaml:4:13: estimation: tilt_rotor_hexarotor has no sensors.odometry to fly on\n"
+        "    choices: external"
+    )
+
+
+def test_one_surface_carries_a_force_sensor(refusal: Refusal) -> None:
+    two = (
+        "    tank: {force_sensor: {rate_hz: 500}}\n    wall:\n      force_sensor: {rate_hz: 250}\n"
+    )
+    (message,) = refusal("  structure:\n    wall:\n", f"  structure:\n{two}")
+    assert message == (
+        "m.yaml:25:21: truth.structure.wall.force_sensor: "
+        "a second force sensor; one surface may carry one"
     )
 
 
@@ -301,7 +360,8 @@ def test_a_platform_given_by_name_in_the_option(campaign: Path) -> None:
         load_mission(mission, Path("heavi"))
     assert str(caught.value) == (
         "no platform is named 'heavi'\n    did you mean 'heavy'? "
-        "choices: tilt_rotor_hexarotor, tilt_rotor_hexarotor_30, heavy"
+        "choices: tilt_rotor_hexarotor, tilt_rotor_hexarotor_30, "
+        "tilt_rotor_hexarotor_force_evaluation, heavy"
     )
     with pytest.raises(SchemaError, match=r"heavi\.yaml: there is no such file\n.*heavy\.yaml\?"):
         load_mission(mission, campaign / "platforms" / "heavi.yaml")
@@ -323,8 +383,8 @@ def test_problems_of_mission_and_platform_come_together(campaign: Path) -> None:
 @pytest.mark.parametrize(
     ("old", "new", "message"),
     [
-        ("mass_kg: 2.76", "mass_kg: -2.76", "28:12: core.mass_kg: must be above 0; found -2.76"),
-        ("mass_kg: 2.76", "mass_g: 2760", "28:3: core.mass_g: unknown key 'mass_g'"),
+        ("mass_kg: 2.76", "mass_kg: -2.76", "36:12: core.mass_kg: must be above 0; found -2.76"),
+        ("mass_kg: 2.76", "mass_g: 2760", "36:3: core.mass_g: unknown key 'mass_g'"),
         (
             "schema: 1\n",
             "schema: 1\nrates: {control_hz: -250}\n",
@@ -362,3 +422,38 @@ def test_the_campaign_is_the_folder_that_holds_missions(campaign: Path, tmp_path
     deep = campaign / "missions" / "walls" / "m.yaml"
     assert campaign_root(deep) == campaign.resolve()
     assert campaign_root(tmp_path / "m.yaml") == tmp_path.resolve()
+
+
+def test_the_truth_may_add_a_surface_that_states_its_geometry(campaign: Path) -> None:
+    (campaign / "missions" / "scans" / "vault.ply").write_text("not read yet")
+    mission = campaign / "missions" / "m.yaml"
+    text = mission.read_text()
+    added = "    vault: {geometry: {kind: mesh, file: scans/vault.ply}, friction: 0.3}\n    wall:\n"
+    mission.write_text(text.replace("    wall:\n", added))
+    loaded = load_mission(mission)
+    shape = loaded.truth.structure["vault"].geometry
+    assert shape is not None
+    assert shape.kind == "mesh"
+    assert shape.file == "missions/scans/vault.ply"  # relative to the campaign
+    assert "vault" not in [surface.name for surface in loaded.mission.structure]
+
+
+@pytest.mark.parametrize(
+    ("geometry", "message"),
+    [
+        ("{kind: mesh, file: scans/none.ply}", "structure.vault.geometry.file: no such file"),
+        ("{kind: mesh, file: ../../x.ply}", "geometry.file: leads out of the campaign folder"),
+        ("{kind: mesh}", "structure.vault.geometry: missing key 'file'"),
+        ("{kind: mesh, file: scans/tank.ply, pitch_m: 0}", "pitch_m: must be at least 0.002"),
+        ("{kind: msh, file: scans/tank.ply}", "choices: plane, sphere, cylinder, mesh"),
+    ],
+)
+def test_a_spoiled_mesh_of_the_truth(refusal: Refusal, geometry: str, message: str) -> None:
+    found = "\n".join(refusal("    wall:\n", f"    vault: {{geometry: {geometry}}}\n    wall:\n"))
+    assert message in found
+
+
+def test_no_planner_may_believe_in_a_mesh(refusal: Refusal) -> None:
+    found = "\n".join(refusal("kind: plane", "kind: mesh"))
+    assert "mesh" in found
+    assert "choices: plane, sphere, cylinder" in found

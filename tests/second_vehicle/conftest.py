@@ -30,4 +30,4 @@ def mission(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Path]:
 @pytest.fixture(scope="module")
 def vehicle(mission: Path) -> CantedOctorotor:
     """The vehicle of the mission."""
-    return CantedOctorotor(load_mission(mission).platform, "contact_ndt")
+    return CantedOctorotor(load_mission(mission).platform)

@@ -9,7 +9,8 @@ from scipy.stats import chi2
 
 from inspect_cli.estimation.error_state import ErrorStateFilter
 from inspect_cli.records import Estimate, State
-from inspect_cli.schema.vehicle import ImuModel, PoseModel
+from inspect_cli.schema.positioning import PoseModel
+from inspect_cli.schema.vehicle import ImuModel
 from inspect_cli.sensing.imu import ImuSensor
 from inspect_cli.sensing.instrument import BLOCK, Noise
 from inspect_cli.sensing.pose import PoseSensor
@@ -140,7 +141,7 @@ def test_the_filter_trusts_these_sensors_as_much_as_they_deserve() -> None:
     for seed in range(runs):
         rng = np.random.default_rng(seed)
         imu, pose = ImuSensor(imu_model, 250, rng), PoseSensor(pose_model, rng)
-        belief = ErrorStateFilter(imu_model, pose_model, 250)
+        belief = ErrorStateFilter(imu_model, pose_model, 250, 100)
         estimate = Estimate.create()
         state = State.create(LENGTHS)
         state.w_WB_B = [0.0, 0.0, rate]

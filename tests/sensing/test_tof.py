@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from inspect_cli.records import State
+from inspect_cli.schema.geometry import Displacement, MeshShape
 from inspect_cli.schema.vehicle import TofModel
 from inspect_cli.sensing.tof import TofCamera
 from inspect_cli.spatial.primitives import PRIMITIVE, plane, sphere
@@ -14,6 +15,8 @@ from inspect_cli.spatial.rotations import (
     quaternion_to_matrix,
     roll_pitch_yaw_matrix,
 )
+from inspect_cli.truth.heights import mesh_relief
+from inspect_cli.truth.solids import Solids, foot_on
 
 LENGTHS = {"n_rotors": 4, "n_joints": 0}
 R_BT = np.array([[0.0, 0.0, 1.0], [0.0, 1.0, 0.0], [-1.0, 0.0, 0.0]])
@@ -43,7 +46,7 @@ def state_at(p_WB, R_WB=None) -> State:
 
 
 def camera(primitives, seed=1, **noise) -> TofCamera:
-    return TofCamera(model(**noise), primitives, np.random.default_rng(seed))
+    return TofCamera(model(**noise), Solids(primitives), np.random.default_rng(seed))
 
 
 def in_world(points_D, state):
@@ -148,3 +151,17 @@ def test_same_seed_gives_the_same_image_and_another_seed_another():
         images.append(cam.points_D)
     assert np.array_equal(images[0], images[1])
     assert not np.array_equal(images[0], images[2])
+
+
+def test_a_vault_is_seen_as_its_heights_say(root):
+    shape = MeshShape(file="missions/scans/vault.ply", normal=(0.0, 0.0, -1.0))
+    relief = mesh_relief(shape, Displacement(), root)
+    solids = Solids(np.zeros(0, PRIMITIVE), relief.row, relief.nodes)
+    cam = TofCamera(model(), solids, np.random.default_rng(1))
+    state = state_at([0.4, 0.2, 2.2], roll_pitch_yaw_matrix(0.1, -1.2, 0.3))
+    cam.sample(state)
+    points = in_world(cam.points_D, state)
+    seen = np.isfinite(points).all(axis=1)
+    assert seen.sum() > 2500
+    away = [abs(foot_on(solids, 0, p)[2]) for p in points[seen][::7]]
+    assert max(away) < 2e-6

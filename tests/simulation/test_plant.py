@@ -9,8 +9,9 @@ from scipy import signal
 from scipy.spatial.transform import Rotation
 from worlds import UPRIGHT, command_of, hold_attitude, placed, plant_of, structure_of, vehicle_at
 
+from inspect_cli.schema.disturbances import ConstantWrench
 from inspect_cli.schema.geometry import PlaneShape
-from inspect_cli.schema.truth import ConstantWrench, ProximityEffects, TruePlatform
+from inspect_cli.schema.truth import ProximityEffects, TruePlatform
 from inspect_cli.simulation.plant import Plant
 from inspect_cli.vehicles.kinds import Vehicle
 

@@ -7,11 +7,11 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from inspect_cli.scans.clouds import read_cloud
 from inspect_cli.schema.loading import load_mission
 from inspect_cli.schema.primitives import primitives_of
 from inspect_cli.simulation.scanner import Scanner, scan
 from inspect_cli.spatial.primitives import plane, sphere
-from inspect_cli.structure.clouds import read_cloud
 
 AHEAD = {"position_W": (0.0, 0.0, 1.25), "looking_at_W": (2.0, 0.0, 1.25)}
 

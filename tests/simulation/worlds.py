@@ -10,13 +10,14 @@ import numpy as np
 
 from inspect_cli.interfaces import Posture
 from inspect_cli.records import Command
+from inspect_cli.schema.disturbances import Disturbance
 from inspect_cli.schema.geometry import Shape
 from inspect_cli.schema.loading import load_platform
-from inspect_cli.schema.primitives import primitives_of
-from inspect_cli.schema.truth import Disturbance, ProximityEffects, TruePlatform
+from inspect_cli.schema.truth import ProximityEffects, TruePlatform
 from inspect_cli.schema.vehicle import TiltRotorPlatform
 from inspect_cli.simulation.plant import Plant
 from inspect_cli.simulation.world import build_world
+from inspect_cli.truth import geometry
 from inspect_cli.truth.disturbances import Disturbances
 from inspect_cli.truth.geometry import StructureTruth, SurfaceTruth
 from inspect_cli.truth.proximity import Proximity
@@ -39,8 +40,8 @@ def vehicle_at(pitch_deg: float = 90.0, **tool: float) -> Vehicle:
 
 
 def structure_of(shapes: Sequence[Shape], friction: float = 0.5) -> StructureTruth:
-    surfaces = tuple(SurfaceTruth(f"s{i}", shape, friction, None) for i, shape in enumerate(shapes))
-    return StructureTruth(surfaces, primitives_of(shapes))
+    surfaces = [SurfaceTruth(f"s{i}", shape, friction, None) for i, shape in enumerate(shapes)]
+    return geometry.structure_of(surfaces)
 
 
 def weightless(vehicle: Vehicle, structure: StructureTruth) -> mujoco.MjModel:
@@ -60,13 +61,15 @@ def plant_of(
     structure = structure or structure_of([])
     model = build_world(vehicle, truth or TruePlatform(), structure)
     radius_m = vehicle.actuators.rotor_radius_m
+    control_hz = vehicle.platform.rates.control_hz
     return Plant(
         model,
         vehicle,
         vehicle.capabilities.lengths,
-        Disturbances(disturbances),
-        Proximity(effects, structure.primitives, radius_m),
-        vehicle.platform.rates.control_hz,
+        structure.solids,
+        Disturbances(disturbances, np.random.default_rng(0), control_hz),
+        Proximity(effects, structure.solids, radius_m),
+        control_hz,
     )
 
 

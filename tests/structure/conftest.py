@@ -6,7 +6,12 @@ from collections.abc import Callable
 
 import pytest
 
-from inspect_cli.schema.mission import Mission, Start, StructureSurface, SurfaceSource
+from inspect_cli.schema.mission import (
+    Mission,
+    Start,
+    StructureSurface,
+    SurfaceSource,
+)
 from inspect_cli.schema.tasks import ContactGrid, Task
 
 MissionOn = Callable[..., Mission]

@@ -8,9 +8,9 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from inspect_cli.scans.clouds import read_cloud
 from inspect_cli.schema.geometry import CylinderShape, PlaneShape
 from inspect_cli.schema.mission import CropBox, Fit, FitOptions, Mission, SurfaceSource
-from inspect_cli.structure.clouds import read_cloud
 from inspect_cli.structure.fitting import fit_primitive
 from inspect_cli.structure.surfaces import believed_surfaces
 

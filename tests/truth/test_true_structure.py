@@ -6,9 +6,17 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from meshes import graph_corners, write_mesh
 
 from inspect_cli.records import State
-from inspect_cli.schema.geometry import CylinderShape, Displacement, PlaneShape, Shape, SphereShape
+from inspect_cli.schema.geometry import (
+    CylinderShape,
+    Displacement,
+    MeshShape,
+    PlaneShape,
+    Shape,
+    SphereShape,
+)
 from inspect_cli.schema.plan import PlannedSurface
 from inspect_cli.schema.truth import AnalyticSpecimen, AnalyticSpot, TrueSurface, TruthModel
 from inspect_cli.truth.contact import ContactTruth
@@ -49,7 +57,7 @@ def test_without_a_truth_the_belief_holds() -> None:
     found = structure({}, WALL, BALL)
     assert [s.shape for s in found.surfaces] == [WALL, BALL]
     assert [s.friction for s in found.surfaces] == [0.5, 0.5]
-    assert found.primitives.shape == (2,)
+    assert found.solids.primitives.shape == (2,)
 
 
 def test_a_true_geometry_replaces_the_belief_and_a_displacement_moves_either() -> None:
@@ -70,8 +78,8 @@ def test_a_true_geometry_replaces_the_belief_and_a_displacement_moves_either() -
 def test_an_absent_surface_is_not_there() -> None:
     found = structure({"s0": TrueSurface(absent=True)}, WALL, BALL)
     assert [s.name for s in found.surfaces] == ["s1"]
-    assert found.primitives.shape == (1,)
-    assert structure({"s0": TrueSurface(absent=True)}, WALL).primitives.shape == (0,)
+    assert found.solids.primitives.shape == (1,)
+    assert structure({"s0": TrueSurface(absent=True)}, WALL).solids.primitives.shape == (0,)
 
 
 def at(truth: StructureTruth, p_WT: list[float]) -> ContactTruth:
@@ -136,3 +144,36 @@ def test_without_any_surface_there_is_no_contact() -> None:
     assert contact.surface == -1
     unknown = [contact.distance, *contact.n_W, *contact.uv, contact.potential, contact.resistivity]
     assert np.isnan(unknown).all()
+
+
+def test_a_surface_that_only_the_truth_knows_comes_after_the_believed_ones() -> None:
+    found = structure(
+        {"pipe": TrueSurface(geometry=BALL, friction=0.2), "gone": TrueSurface(absent=True)}, WALL
+    )
+    assert [s.name for s in found.surfaces] == ["s0", "pipe"]
+    assert found.surfaces[1].friction == 0.2
+    hidden = structure({"pipe": TrueSurface(geometry=BALL, absent=True)}, WALL)
+    assert [s.name for s in hidden.surfaces] == ["s0"]
+
+
+def test_a_mesh_comes_last_and_carries_its_specimen_and_its_displacement(tmp_path: Path) -> None:
+    """A level ceiling at 3 m, 2 m × 1.6 m, shifted: the specimen is asked at its own (u, v)."""
+    write_mesh(tmp_path / "ceiling.ply", graph_corners(lambda x, y: 3.0 + 0.0 * x))
+    mesh = MeshShape(file="ceiling.ply", normal=(0.0, 0.0, -1.0))
+    moved = Displacement(translate_m=(-0.3, 6.1, 0.0))
+    entry = TrueSurface(geometry=mesh, moved=moved, specimen=SPECIMEN, friction=0.7)
+    truth = TruthModel(structure={"s0": entry, "late": TrueSurface(geometry=VAULT)})
+    found = true_structure(truth, believed(WALL, BALL), tmp_path)
+    assert [s.name for s in found.surfaces] == ["s1", "late", "s0"]
+    assert found.surfaces[2].friction == 0.7
+    assert found.solids.primitives.shape == (2,)
+    assert found.solids.reliefs.shape == (1,)
+    # u runs along x_W, v = n × u along −y_W: the spot at (0.3, 0.1) is at (0, 6).
+    contact = at(found, [0.0, 6.0, 2.99]).contact
+    assert contact.surface == 2
+    assert contact.distance == pytest.approx(0.01, abs=1e-6)
+    np.testing.assert_allclose(contact.n_W, [0.0, 0.0, -1.0], atol=1e-9)
+    np.testing.assert_allclose(contact.uv, [0.3, 0.1], atol=1e-6)
+    assert (contact.potential, contact.resistivity) == SPOT
+    assert at(found, [0.0, 6.0, 3.004]).contact.distance == pytest.approx(-0.004, abs=1e-6)
+    assert at(found, [0.0, 4.5, 1.5]).contact.surface == 0

@@ -7,6 +7,7 @@ import numpy as np
 
 from inspect_cli.control.tilt_allocation import TiltAllocation
 from inspect_cli.interfaces import FlightStack
+from inspect_cli.schema.positioning import Estimation
 from inspect_cli.schema.vehicle import TiltRotorPlatform
 from inspect_cli.vehicles.kinds import Actuators, Tip
 from inspect_cli.vehicles.rigid_body import nominal_body
@@ -36,9 +37,11 @@ class TiltRotor:
         """The nominal MuJoCo model, in free space."""
         return build_spec(self.platform)
 
-    def flight_stack(self) -> FlightStack:
+    def flight_stack(self, estimation: Estimation = "external") -> FlightStack:
         """Error-state filter, momentum observer, selective impedance, static allocation."""
-        return ImpedanceStack(self.platform, self.capabilities, self._body, self._allocation())
+        return ImpedanceStack(
+            self.platform, self.capabilities, self._body, self._allocation(), estimation
+        )
 
     def _allocation(self) -> TiltAllocation:
         azimuth = np.radians([group.azimuth_deg for group in self.platform.groups])

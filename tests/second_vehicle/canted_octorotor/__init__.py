@@ -10,6 +10,7 @@ from canted_octorotor.file_model import N_ROTORS, CantedOctorotorPlatform
 from canted_octorotor.fixed_allocation import FixedAllocation
 from canted_octorotor.mujoco_model import build_spec
 from inspect_cli.interfaces import FlightStack
+from inspect_cli.schema.positioning import Estimation
 from inspect_cli.vehicles.kinds import Actuators, Tip
 from inspect_cli.vehicles.rigid_body import nominal_body
 from inspect_cli.vehicles.stack import ImpedanceStack
@@ -34,6 +35,6 @@ class CantedOctorotor:
     def nominal_spec(self) -> mujoco.MjSpec:
         return build_spec(self.platform)
 
-    def flight_stack(self) -> FlightStack:
+    def flight_stack(self, estimation: Estimation = "external") -> FlightStack:
         allocation = FixedAllocation(self.platform.rotors)
-        return ImpedanceStack(self.platform, self.capabilities, self._body, allocation)
+        return ImpedanceStack(self.platform, self.capabilities, self._body, allocation, estimation)

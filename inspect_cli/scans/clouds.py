@@ -8,8 +8,7 @@ from pathlib import Path
 
 import numpy as np
 
-from inspect_cli.spatial.arrays import Points
-from inspect_cli.structure.files import (
+from inspect_cli.scans.files import (
     ReadPoints,
     muted_stderr,
     open3d,
@@ -17,7 +16,8 @@ from inspect_cli.structure.files import (
     require_file,
     truncated,
 )
-from inspect_cli.structure.headers import whole_pcd, whole_ply
+from inspect_cli.scans.headers import whole_pcd, whole_ply
+from inspect_cli.spatial.arrays import Points
 
 AGAIN = "export or copy it again"
 DAMAGED = (RuntimeError, ValueError, KeyError, OverflowError, MemoryError, EOFError, struct.error)

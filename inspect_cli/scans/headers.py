@@ -12,7 +12,7 @@ import struct
 from dataclasses import dataclass
 from pathlib import Path
 
-from inspect_cli.structure.files import refused, truncated
+from inspect_cli.scans.files import refused, truncated
 
 PLY_SIZES = {
     "char": 1, "uchar": 1, "int8": 1, "uint8": 1,

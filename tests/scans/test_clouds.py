@@ -11,7 +11,7 @@ import pytest
 from cloud_files import POINTS, WRITERS, write_e57, write_las, write_pcd
 
 from inspect_cli.errors import GeometryError
-from inspect_cli.structure.clouds import READERS, read_cloud
+from inspect_cli.scans.clouds import READERS, read_cloud
 
 PLY_HEAD = "ply\nformat ascii 1.0\nelement vertex 2\n" + "".join(
     f"property float {axis}\n" for axis in "xyz"

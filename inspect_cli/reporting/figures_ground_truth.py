@@ -1,0 +1,146 @@
+"""Estimates of pose and force against what measured them: tracker and force sensor in the wall.
+
+After Fig. 12 and Table IV of Bodie et al., RSS 2019.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+import numpy as np
+
+from inspect_cli.log.reader import RunLog
+from inspect_cli.metrics.flight import Flight, NotMeasured
+from inspect_cli.metrics.force_sensor import signal
+from inspect_cli.records import Estimate, Odometry, Reference, State, WallForce
+from inspect_cli.reporting.figure import Figure
+from inspect_cli.reporting.markup import Markup
+from inspect_cli.reporting.palette import (
+    ESTIMATE,
+    ESTIMATION_ERROR,
+    REFERENCE,
+    SENSOR_FILTERED,
+    SENSOR_RAW,
+    TRUTH,
+)
+from inspect_cli.reporting.published import SOURCE, TABLE_IV
+from inspect_cli.reporting.rows import (
+    attitude_difference_mrad,
+    held_at,
+    rows_of,
+    turned_to_world,
+)
+from inspect_cli.reporting.table import NOTHING, Column, significant, table
+from inspect_cli.reporting.timeline import Line, Panel, Timeline, alike, stacked
+from inspect_cli.schema.result import Result
+
+PANEL_PX = 84
+
+
+def has_ground_truth(log: RunLog) -> bool:
+    """Whether the flight has something to hold its estimates against besides the usual."""
+    return any(rows_of(log, record) is not None for record in (WallForce, Odometry))
+
+
+def position_figure(log: RunLog, timeline: Timeline) -> Iterator[Figure]:
+    """Set-point, estimate and truth along x_W, and the errors on six axes."""
+    sources = ((State, TRUTH), (Estimate, ESTIMATE), (Reference, REFERENCE))
+    found = [(rows_of(log, record), style) for record, style in sources]
+    lines = [Line(r["t_s"], r["p_WB"][:, 0], style) for r, style in found if r is not None]
+    if not lines:
+        return
+    yield stacked(
+        "ground-truth-x",
+        "Position of the body along x of the world: set-point, estimate and truth. In contact, "
+        "shaded, the wall blocks the motion.",
+        "Position along x over time: set-point, estimate and truth.",
+        [Panel("x (m)", lines, height_px=200, off_ground=True)],
+        timeline,
+    )
+    state, estimate = found[0][0], found[1][0]
+    if state is None or estimate is None:
+        return
+    true = held_at(state, estimate["t_s"])
+    position = 1e3 * (estimate["p_WB"] - true["p_WB"])
+    attitude = attitude_difference_mrad(true["q_WB"], estimate["q_WB"])
+    for name, errors, symbols, unit in (
+        ("position", position, ("x", "y", "z"), "mm"),
+        ("attitude", attitude, ("roll", "pitch", "yaw"), "mrad"),
+    ):
+        panels = [
+            Panel(f"{symbol} ({unit})", [Line(estimate["t_s"], errors[:, k], ESTIMATION_ERROR)])
+            for k, symbol in enumerate(symbols)
+        ]
+        yield stacked(
+            f"ground-truth-{name}",
+            f"Error of the estimated {name}, "
+            + ("in the world." if unit == "mm" else "as a rotation vector about the body's axes.")
+            + " Panels have one scale.",
+            f"Error of the estimated {name} on three axes over time.",
+            alike(panels, timeline.off_ground_s or (-np.inf, np.inf)),
+            timeline,
+        )
+
+
+def force_figure(flight: Flight, timeline: Timeline) -> Iterator[Figure]:
+    """Estimated force against the sensor's, raw and filtered, along the axes of the world."""
+    try:
+        sensed = signal(flight)
+    except NotMeasured:
+        return
+    raw_W, filtered_W = (-force[:, :3] @ sensed.R_WS.T for force in (sensed.raw, sensed.filtered))
+    tracks = [(sensed.t_s, filtered_W, SENSOR_FILTERED)]
+    estimate = rows_of(flight.log, Estimate)
+    if estimate is not None:
+        force_W = turned_to_world(estimate["q_WB"], estimate["wrench_B"][:, :3])
+        tracks.append((estimate["t_s"], force_W, ESTIMATE))
+    window = timeline.off_ground_s or (-np.inf, np.inf)
+    smooth = [
+        Panel(f"F<sub>{axis}</sub> (N)", [Line(t, f[:, k], style) for t, f, style in tracks])
+        for k, axis in enumerate("xyz")
+    ]
+    panels = [
+        Panel(p.title, [Line(sensed.t_s, raw_W[:, k], SENSOR_RAW), *p.lines], p.axis, 110)
+        for k, p in enumerate(alike(smooth, window))
+    ]
+    yield stacked(
+        "ground-truth-force",
+        "Force on the vehicle in the world: by the momentum observer, and by the sensor in the "
+        "wall, raw and filtered (Butterworth of order 5, 5 Hz, without a lag). The observer holds "
+        "all other external force too. The scale is that of the smooth lines; the raw signal goes "
+        "beyond it.",
+        "Estimated and measured force on three axes over time.",
+        panels,
+        timeline,
+    )
+
+
+def rmse_table(result: Result) -> Markup:
+    """Our root mean square errors beside the published ones; nothing where none is measured."""
+    ours = {name: result.metrics.get(name) for name in TABLE_IV}
+    if all(metric is None or metric.value is None for metric in ours.values()):
+        return Markup("")
+    rows = []
+    for name, (symbol, published, unit) in TABLE_IV.items():
+        metric = ours[name]
+        value = metric.value if metric else None
+        ratio = NOTHING if value is None else significant(value / published, 2)
+        rows.append([_symbol(symbol), significant(value, 3), significant(published), unit, ratio])
+    columns = [
+        Column("Estimate"),
+        Column("Ours, RMSE", numeric=True),
+        Column("Published, RMSE", numeric=True),
+        Column("Unit"),
+        Column("Ratio", numeric=True),
+    ]
+    return table(
+        f"Errors of the estimates beside Table IV of {SOURCE}: pose from take-off to landing, "
+        "force against the filtered sensor. The published row of z is not legible.",
+        columns,
+        rows,
+    )
+
+
+def _symbol(symbol: str) -> str:
+    base, _, index = symbol.partition("_")
+    return Markup(f"{base}<sub>{index}</sub>") if index else symbol

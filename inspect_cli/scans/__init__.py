@@ -1,0 +1,1 @@
+"""Files of points and triangles, as scanners and modelling software write them."""
