@@ -84,7 +84,8 @@ class Hold(Strict):
     duration_s: Annotated[float, Field(gt=0, le=3600)]
 
 
-Path = Annotated[tuple[tuple[Coordinate, Coordinate], ...], Field(min_length=2, max_length=MAX_POINTS)]
+Corner = tuple[Coordinate, Coordinate]
+Path = Annotated[tuple[Corner, ...], Field(min_length=2, max_length=MAX_POINTS)]
 
 
 class Trace(Pressing):

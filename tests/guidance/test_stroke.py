@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from itertools import pairwise
+
 import numpy as np
 import pytest
 from fake_vehicle import FakeVehicle, target_at
@@ -52,7 +54,7 @@ def test_nothing_jumps_across_knots_and_both_ends_rest(prim, points):
     stretches = along(3.0, path, posture_on(FakeVehicle(), prim))
     assert stretches[0].start_s == 3.0
     assert stretches[-1].end_s == pytest.approx(3.0 + path.duration_s)
-    for before, after in zip(stretches, stretches[1:], strict=False):
+    for before, after in pairwise(stretches):
         assert after.start_s == pytest.approx(before.end_s, abs=1e-12)
         a, b = before.motion(before.end_s), after.motion(after.start_s)
         for name in ("p_WB", "q_WB", "v_WB_W", "w_WB_B", "a_WB_W", "alpha_WB_B"):
@@ -181,7 +183,7 @@ def test_a_stroke_is_drawn_on_the_plane_that_was_seen_and_left_where_it_ends():
     """The board is 6 cm nearer than believed; retreat leads off from the stroke's end."""
     vehicle = FakeVehicle()
     true = plane([1.94, 0.0, 1.5], [-1.0, 0.0, 0.0], [2.0, 2.0])
-    target = stroke_target(vehicle, BOARD, LINE, LINE[::-1] + [[0.0, 0.0], [0.0, 0.1]])
+    target = stroke_target(vehicle, BOARD, LINE, [LINE[1], (-0.2, 0.1)])
     pursuit = Pursuit(vehicle, HERE, {"wall": BOARD})
     pursuit.approach(0.0, target, PRESS_M, 0.5)
     for k in range(60):

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from itertools import pairwise
 from pathlib import Path
 
 import numpy as np
@@ -106,7 +107,7 @@ def test_pieces_end_at_corners_alone(draw: Draw, d: str, pieces: int) -> None:
     """A line that turns by less than 10° is smooth; handles of no length have a direction, too."""
     (stroke,) = draw(path(d))
     assert len(stroke) == pieces
-    for before, after in zip(stroke, stroke[1:], strict=False):
+    for before, after in pairwise(stroke):
         np.testing.assert_allclose(before[-1], after[0], atol=1e-12)
 
 
