@@ -159,8 +159,10 @@ def test_the_clearance_of_a_stroke_is_its_least():
     for end in (0.0, 0.5, 0.52):
         drawings = ((np.array([[-0.5, 0.0], [end, 0.0]]),),)
         gaps.append(planned(trace(), surfaces=surfaces, drawings=drawings).targets[0].clearance_m)
-    # The wall is 0.13 m away all along; u grows towards the pillar, which is nearer at the end.
-    np.testing.assert_allclose(gaps, [0.13, 0.08, 0.06], atol=0.005)
+    # The wall is 0.13 m away all along; u grows towards the pillar, which is nearer at the end:
+    # the rotors reach 0.3 sin 60° + 0.12 to the side.
+    reach = 0.3 * np.sin(np.radians(60.0)) + 0.12
+    np.testing.assert_allclose(gaps, [0.13, 0.5 - reach, 0.48 - reach], atol=1e-6)
 
 
 @pytest.mark.parametrize("radius_m", [0.5, 1.0])
