@@ -77,7 +77,7 @@ def dangling_surfaces(mission: Node) -> list[Problem]:
             )
         elif isinstance(node.value, str):
             names.append(node.value)
-    if not names:
+    if not names and mission.child("structure") is not None:
         return problems  # the schema refuses the structure; the rest would only repeat it
     for pattern in SURFACES:
         for steps, node in matches(mission, pattern):

@@ -125,7 +125,8 @@ class Hold(Strict):
     duration_s: Annotated[float, Field(gt=0, le=3600)]
 
 
-Path = Annotated[tuple[tuple[float, float], ...], Field(min_length=2, max_length=MAX_POINTS)]
+Corner = tuple[Coordinate, Coordinate]
+Path = Annotated[tuple[Corner, ...], Field(min_length=2, max_length=MAX_POINTS)]
 
 
 class Trace(Pressing):
@@ -141,7 +142,7 @@ class Trace(Pressing):
     """File in the campaign folder; every path in it is a stroke, between which the tool lifts."""
     width_m: Positive | None = None
     """Width of the SVG's drawing on the surface, along u; its height follows."""
-    at_m: tuple[float, float] = (0.0, 0.0)
+    at_m: tuple[Coordinate, Coordinate] = (0.0, 0.0)
     """(u, v) of the polyline's origin, or of the middle of the SVG's drawing, on the surface."""
     speed_mps: Positive = 0.1
     repeat: Annotated[int, Field(ge=1, le=20)] = 1

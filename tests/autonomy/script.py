@@ -84,6 +84,11 @@ def two_point_plan() -> Plan:
     )
 
 
+def target_is_unknown(calls: list[tuple[str, float, float]]) -> bool:
+    """Only what nobody described, the third target of a plan of work, is aimed at by sight."""
+    return calls[-1][0] == "approach A3"
+
+
 @dataclass
 class FakeGuidance:
     """Writes down what it is asked; arrives ``takes_s`` later, or when the test says."""
@@ -96,6 +101,8 @@ class FakeGuidance:
     """(what, depth or height of the goal, speed)."""
     arrival_s: float = 0.0
     impedances: list[str] = field(default_factory=list)
+    observed: list[float] = field(default_factory=list)
+    """When the surfaces were seen that the executive passed on."""
     contradicted: bool = False
     """What the next surfaces do to the plan."""
 
@@ -106,7 +113,8 @@ class FakeGuidance:
         self._ask(t_s, f"approach {target.label}", depth_m, speed_mps)
 
     def observe(self, t_s: float, surface: SurfaceEstimate) -> None:
-        raise AssertionError("the loop hands surfaces to guidance, not the executive")
+        assert target_is_unknown(self.calls), "the loop hands the others to guidance"
+        self.observed.append(surface.t_s)
 
     def take_impedance(self, name: str) -> None:
         self.impedances.append(name)
@@ -161,15 +169,18 @@ class FakeJudge:
 class Script:
     """Steps an executive through time; poses and surfaces come as long as they are on."""
 
-    def __init__(self) -> None:
+    def __init__(self, plan: Plan | None = None) -> None:
         self.guidance = FakeGuidance()
         self.judges: list[FakeJudge] = []
         self.estimate = Estimate.create()
         self.estimate.q_WB[0] = self.guidance.reference.q_WB[0] = 1.0
         self.poses = self.surfaces = True
+        self.distance_m = 0.25
+        self.blind_after_s = float("inf")
+        self._seen = SurfaceEstimate.create()
         self.t_s = 0.0
         self.executive = Executive(
-            two_point_plan(), self.guidance, self._judge, self.estimate, TIME_LIMIT_S
+            plan or two_point_plan(), self.guidance, self._judge, self.estimate, TIME_LIMIT_S
         )
         self.modes: list[tuple[Mode, int]] = []
 
@@ -186,8 +197,9 @@ class Script:
         if self.poses:
             self.executive.heard_pose(self.t_s)
         if self.surfaces:
-            seen = SurfaceEstimate.create()
-            seen.t_s, seen.valid, seen.distance = self.t_s, 1.0, 0.25
+            seen = self._seen
+            seen.t_s, seen.distance = self.t_s, self.distance_m
+            seen.valid = float(self.t_s < self.blind_after_s)
             self.executive.saw_surface(seen)
         self.executive.probe_sampled(Probe.create(), np.zeros(3))
         self.executive.update(self.t_s)
