@@ -125,7 +125,7 @@ def plan(
     if as_json:
         sys.stdout.write(outcome.plan.model_dump_json(by_alias=True) + "\n")
     else:
-        terminal.print_plan(outcome.plan, outcome.file)
+        terminal.print_any_plan(outcome.plan, outcome.file)
     return EXIT_GOOD
 
 
@@ -143,8 +143,8 @@ def fly(
 ) -> int:
     """Fly a mission or a plan in simulation; write the log and the metrics."""
     from inspect_cli import terminal
-    from inspect_cli.commands.fly import FlightInterrupted
     from inspect_cli.commands.fly import fly as command
+    from inspect_cli.commands.flying import FlightInterrupted
 
     with _stdout_kept_clean():
         terminal.announce_compilation(shown=not as_json)

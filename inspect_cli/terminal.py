@@ -28,6 +28,7 @@ if TYPE_CHECKING:
     from inspect_cli.errors import Problem
     from inspect_cli.regression.flights import FlightEnd
     from inspect_cli.regression.outcome import RegressReport
+    from inspect_cli.schema.coverage import CoveragePlan
     from inspect_cli.schema.plan import Plan
     from inspect_cli.schema.result import Check, PointResult, Result
 
@@ -90,16 +91,60 @@ def print_campaign(made: Campaign) -> None:
         out.print(f"next: cd {made.folder}; inspect fly {made.first_mission}", soft_wrap=True)
 
 
+def print_any_plan(plan: Plan | CoveragePlan, file: Path) -> None:
+    """The plan of a flight or of a survey."""
+    from inspect_cli.schema.coverage import CoveragePlan
+
+    if isinstance(plan, CoveragePlan):
+        print_survey_plan(plan, file)
+    else:
+        print_plan(plan, file)
+
+
+def print_survey_plan(plan: CoveragePlan, file: Path) -> None:
+    """The sorties with their points, times and energies, and the points that are left out."""
+    out = console()
+    _print_surfaces(plan.sorties[0].plan)
+    table = _table(
+        f"{plan.mission}: sorties",
+        *("sortie", "points", "start x, y\n/m", "time\n/s", "energy\n/Wh", "way\n/m"),
+        *("cable\n/m", "least thrust\nmargin /N", "least\nclearance /m"),
+    )
+    for sortie in plan.sorties:
+        flight = sortie.plan
+        table.add_row(
+            str(sortie.number),
+            str(len(flight.targets)),
+            ", ".join(f"{x:.1f}" for x in flight.start.p_WB[:2]),
+            f"{flight.duration_s:.0f}",
+            f"{flight.energy_wh:.1f}",
+            f"{flight.path_m:.1f}",
+            f"{flight.cable_m:.1f}",
+            f"{min(t.thrust_margin_n for t in flight.targets):.1f}",
+            f"{min(t.clearance_m for t in flight.targets):.2f}",
+        )
+    out.print(table)
+    for reason, labels in _grouped((p.reason, p.label) for p in plan.skipped).items():
+        many = "s" if len(labels) > 1 else ""
+        text = Text.assemble((f"left out, point{many} {', '.join(labels)}: ", UNSURE), reason)
+        out.print(text, soft_wrap=True)
+    out.print(
+        f"{plan.points} points in {len(plan.sorties)} sorties, {len(plan.skipped)} left out, "
+        f"{plan.tour_m:.1f} m through all standoffs"
+    )
+    out.print(
+        f"{plan.duration_s:.0f} s and {plan.energy_wh:.1f} Wh in all, "
+        f"at most {plan.budget_wh:.1f} Wh in each sortie"
+    )
+    for sortie in plan.sorties:
+        _print_warnings(f"sortie {sortie.number}: {w}" for w in sortie.plan.warnings)
+    out.print(f"plan: {_near(file)}", soft_wrap=True)
+
+
 def print_plan(plan: Plan, file: Path) -> None:
     """The surfaces, the points in the order of the flight, and what the flight takes."""
     out = console()
-    surfaces = _table(f"{plan.mission}: surfaces", "surface", "shape", "from", "fit")
-    for surface in plan.surfaces:
-        fit = surface.fit
-        quality = f"{fit.inlier_share:.0%} within, rms {1000 * fit.rms_m:.1f} mm" if fit else ""
-        surfaces.add_row(surface.name, surface.shape.kind, surface.source, quality)
-    if plan.surfaces:
-        out.print(surfaces)
+    _print_surfaces(plan)
     points = _table(
         f"{plan.mission}: targets",
         *("target", "kind", "surface", "x, y, z /m", "press\n/m", "force\n/N"),
@@ -123,6 +168,16 @@ def print_plan(plan: Plan, file: Path) -> None:
     )
     _print_warnings(plan.warnings)
     out.print(f"plan: {_near(file)}", soft_wrap=True)
+
+
+def _print_surfaces(plan: Plan) -> None:
+    surfaces = _table(f"{plan.mission}: surfaces", "surface", "shape", "from", "fit")
+    for surface in plan.surfaces:
+        fit = surface.fit
+        quality = f"{fit.inlier_share:.0%} within, rms {1000 * fit.rms_m:.1f} mm" if fit else ""
+        surfaces.add_row(surface.name, surface.shape.kind, surface.source, quality)
+    if plan.surfaces:
+        console().print(surfaces)
 
 
 def print_flight(result: Result, folder: Path) -> None:

@@ -12,7 +12,9 @@ from pathlib import Path
 from inspect_cli.commands.runs import plan_folder, write_model
 from inspect_cli.errors import InfeasibleError, Location, Problem, SchemaError
 from inspect_cli.metrics.catalogue import METRICS
+from inspect_cli.planning.coverage import Surveyor
 from inspect_cli.planning.planner import make_plan
+from inspect_cli.schema.coverage import CoveragePlan, CoveragePlanFile
 from inspect_cli.schema.loading import Loaded, load_mission
 from inspect_cli.schema.plan import Plan, PlanFile
 from inspect_cli.structure.drawings import drawings_of
@@ -25,7 +27,7 @@ from inspect_cli.vehicles.kinds import Vehicle
 class PlanOutcome:
     """A plan and where it was written."""
 
-    plan: Plan
+    plan: Plan | CoveragePlan
     file: Path
 
 
@@ -42,7 +44,8 @@ def plan(mission: Path, platform: Path | None = None, out: Path | None = None) -
         "inputs_sha256": inputs_sha256(loaded),
     }
     file = folder / "plan.json"
-    write_model(file, PlanFile.model_construct(**content))
+    model = CoveragePlanFile if isinstance(made, CoveragePlan) else PlanFile
+    write_model(file, model.model_construct(**content))
     return PlanOutcome(made, file)
 
 
@@ -58,7 +61,7 @@ def vehicle_of(loaded: Loaded) -> Vehicle:
     return build_vehicle(loaded.platform)
 
 
-def plan_loaded(loaded: Loaded, vehicle: Vehicle) -> Plan:
+def plan_loaded(loaded: Loaded, vehicle: Vehicle) -> Plan | CoveragePlan:
     """The plan of a mission that is already read.
 
     Raises GeometryError and InfeasibleError with the mission's file in every problem.
@@ -66,6 +69,8 @@ def plan_loaded(loaded: Loaded, vehicle: Vehicle) -> Plan:
     _check_metrics(loaded)
     half_cell = loaded.platform.sensors.half_cell
     try:
+        if loaded.mission.is_survey:
+            return surveyor_of(loaded, vehicle).survey()
         return make_plan(
             loaded.mission,
             loaded.platform.name,
@@ -78,6 +83,20 @@ def plan_loaded(loaded: Loaded, vehicle: Vehicle) -> Plan:
         )
     except InfeasibleError as error:
         raise InfeasibleError(_placed(error.problems, loaded.mission_file)) from error
+
+
+def surveyor_of(loaded: Loaded, vehicle: Vehicle) -> Surveyor:
+    """The planner of a mission that covers a surface."""
+    half_cell = loaded.platform.sensors.half_cell
+    return Surveyor(
+        loaded.mission,
+        loaded.platform.name,
+        vehicle.capabilities,
+        believed_surfaces(loaded.mission, loaded.root),
+        half_cell.cable_m,
+        half_cell.min_force_n,
+        loaded.platform.battery.energy_wh,
+    )
 
 
 def _check_metrics(loaded: Loaded) -> None:

@@ -6,8 +6,8 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
-from inspect_cli.commands.runs import LOG_NAME, write_model
-from inspect_cli.errors import InputError
+from inspect_cli.commands.runs import log_of, write_model
+from inspect_cli.commands.survey_report import report_survey, survey_of
 from inspect_cli.log.reader import read_log
 from inspect_cli.metrics.evaluate import evaluate
 from inspect_cli.reporting.report import write_report
@@ -31,21 +31,14 @@ def report(runs: Sequence[Path], out: Path | None = None) -> tuple[ReportOutcome
 
 
 def _report_one(run: Path, folder: Path) -> ReportOutcome:
+    survey = survey_of(run)
+    if survey is not None:
+        return ReportOutcome(*report_survey(run, survey, folder))
     log = read_log(log_of(run))
     result = evaluate(log)
     folder.mkdir(parents=True, exist_ok=True)
     write_model(folder / "metrics.json", result)
     return ReportOutcome(result, write_report(log, result, folder))
-
-
-def log_of(run: Path) -> Path:
-    """The log of a run folder, finished or cut; a file is its own."""
-    if not run.is_dir():
-        return run
-    for name in (LOG_NAME, f"{LOG_NAME}.part"):
-        if (run / name).exists():
-            return run / name
-    raise InputError(f"{run} holds no {LOG_NAME}", hint="fly it first: inspect fly MISSION")
 
 
 def _folder(run: Path, out: Path | None, count: int) -> Path:

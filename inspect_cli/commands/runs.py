@@ -3,6 +3,8 @@
 reports/<mission>/<platform>/plan.json                       a plan
 reports/<mission>/<platform>-seed<N>/                        a run
     plan.json  flight.mcap  metrics.json  timing.json  readings.csv  report.html
+    sortie-<k>/                                          the same again for each flight of a survey,
+                                                         whose own folder has no log
 """
 
 from __future__ import annotations
@@ -10,7 +12,7 @@ from __future__ import annotations
 import fcntl
 import json
 from collections.abc import Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from pathlib import Path
 
 from pydantic import BaseModel
@@ -29,6 +31,8 @@ RUN_FILES = (
     "readings.csv",
     "report.html",
 )
+SORTIES = "sortie-*"
+"""The folders of a survey's flights."""
 
 
 def plan_folder(root: Path, mission: str, platform: str) -> Path:
@@ -59,12 +63,30 @@ def prepared_run(folder: Path) -> Iterator[None]:
         except OSError as error:
             what = f"another flight is writing into {folder}"
             raise InputError(what, hint="wait for it, or fly with --out") from error
-        for name in RUN_FILES:
-            (folder / name).unlink(missing_ok=True)
+        _clear(folder)
+        for sortie in folder.glob(SORTIES):
+            _clear(sortie)
+            with suppress(OSError):
+                sortie.rmdir()  # what is not ours stays
         try:
             yield
         finally:
             (folder / LOCK_NAME).unlink(missing_ok=True)
+
+
+def log_of(run: Path) -> Path:
+    """The log of a run folder, finished or cut; a file is its own."""
+    if not run.is_dir():
+        return run
+    for name in (LOG_NAME, f"{LOG_NAME}.part"):
+        if (run / name).exists():
+            return run / name
+    raise InputError(f"{run} holds no {LOG_NAME}", hint="fly it first: inspect fly MISSION")
+
+
+def _clear(folder: Path) -> None:
+    for name in RUN_FILES:
+        (folder / name).unlink(missing_ok=True)
 
 
 def write_model(path: Path, model: BaseModel) -> None:

@@ -6,12 +6,17 @@ trajectory is planned anew from the reference of that instant to the corrected s
 lies ``depth_m`` behind the plane on its normal, so pressing needs no switch of mode (Bodie et
 al., "An Omnidirectional Aerial Manipulation Platform for Contact-Based Inspection", RSS 2019).
 
+A surface that nobody described is faced first: the tool turns about the point that it looks at,
+as far away as it is, and goes there once it stands square to it. Turned on the way, it would look
+elsewhere before it arrives.
+
 Sliding moves that contact point: along a stroke of the plan, whose surface is corrected once by
 what was seen before, or along the seen surface itself, corrected by every estimate (section IV-E).
 """
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
@@ -37,6 +42,9 @@ from inspect_cli.schema.plan import Target
 from inspect_cli.spatial.arrays import Matrix, Structured, Vector
 from inspect_cli.spatial.rotations import rotate_back
 
+FACING_MPS = 0.5
+"""The fastest way around a point that the tool turns to."""
+
 NO_SURFACES: Mapping[str, Structured] = {}
 
 
@@ -50,6 +58,10 @@ class _Approach:
     aim: Aim
     announced: Aim
     """The aim for which the time of arrival was last set."""
+    facing_m: float | None = None
+    """The distance that the tool keeps until it stands square to a surface just found."""
+    faced_s: float = 0.0
+    """When it does, as it was planned at the first sight."""
     sliding: bool = False
     following: Following | None = None
 
@@ -148,16 +160,37 @@ class Pursuit:
             self._advance(t_s, approach, approach.following, surface)
             return
         seen = self._expected(approach).seen(surface)
-        goal = None if seen is None else self._posture_for(approach.target, seen, approach.depth_m)
-        if seen is None or goal is None:
+        if seen is None:
             self.implausible += 1
             return
-        first = not approach.aim.found
+        if not approach.aim.found:
+            approach.facing_m = max(surface.distance, approach.target.standoff_m)
+            self._correct(t_s, approach, seen, anew=True)
+            approach.faced_s = self._trajectory.end_s
+            return
+        faced = approach.facing_m is not None and t_s >= approach.faced_s
+        if faced:
+            approach.facing_m = None
+        self._correct(t_s, approach, seen, anew=faced)
+
+    def _correct(self, t_s: float, approach: _Approach, seen: Aim, anew: bool) -> None:
+        """Plan anew from the reference of this instant to the set-point in front of an aim."""
+        facing = approach.facing_m
+        depth_m = approach.depth_m if facing is None else -facing
+        goal = self._posture_for(approach.target, seen, depth_m)
+        if goal is None:
+            self.implausible += 1
+            return
         approach.aim = seen
-        remaining = 0.0 if first else max(self._trajectory.end_s - t_s, CORRECTION_S)
+        limits = approach.limits
+        if facing is not None:
+            limits = MotionLimits.of(self.capabilities, FACING_MPS)
+        remaining = 0.0 if anew else max(self._trajectory.end_s - t_s, CORRECTION_S)
         start = self._trajectory.motion(t_s)
-        self._trajectory = Trajectory(to_goal(t_s, start, goal, approach.limits, remaining))
-        if first or seen.differs(approach.announced, approach.depth_m):
+        self._trajectory = Trajectory(to_goal(t_s, start, goal, limits, remaining))
+        if facing is not None:
+            self._arrival_s = math.inf
+        elif anew or seen.differs(approach.announced, approach.depth_m):
             approach.announced = seen
             self._arrival_s = self._trajectory.end_s
 

@@ -2,12 +2,27 @@
 
 from __future__ import annotations
 
-from inspect_cli.metrics import contact, estimation, guidance, half_cell, operation, pull, tracking
+from inspect_cli.metrics import (
+    contact,
+    estimation,
+    guidance,
+    half_cell,
+    pull,
+    tracking,
+)
 from inspect_cli.metrics.catalogue_estimation import ESTIMATION_METRICS
+from inspect_cli.metrics.catalogue_flight import FLIGHT_METRICS
 from inspect_cli.metrics.catalogue_sliding import SLIDING_METRICS
+from inspect_cli.metrics.joined import (
+    GREATEST,
+    LEAST,
+    MEAN_OVER_POINTS,
+    MEAN_OVER_TIME,
+    RMS_OVER_TIME,
+    SUM,
+)
 from inspect_cli.metrics.spec import MetricSpec
 from inspect_cli.records import (
-    Command,
     Estimate,
     Reading,
     Reference,
@@ -29,150 +44,196 @@ METRICS: dict[str, MetricSpec] = {
         tracking.position_rmse_x,
         "reference against true tool position along x_W, RMS, take-off to landing out of contact",
         FOLLOWED,
+        RMS_OVER_TIME,
     ),
     "tracking.position_rmse_y_m": MetricSpec(
         "m",
         tracking.position_rmse_y,
         "reference against true tool position along y_W, RMS, take-off to landing out of contact",
         FOLLOWED,
+        RMS_OVER_TIME,
     ),
     "tracking.position_rmse_z_m": MetricSpec(
         "m",
         tracking.position_rmse_z,
         "reference against true tool position along z_W, RMS, take-off to landing out of contact",
         FOLLOWED,
+        RMS_OVER_TIME,
     ),
     "tracking.position_rmse_max_axis_m": MetricSpec(
         "m",
         tracking.position_rmse_max_axis,
         "the largest of the three RMS position errors",
         FOLLOWED,
+        GREATEST,
     ),
     "tracking.tool_error_p95_m": MetricSpec(
         "m",
         tracking.tool_error_p95,
         "95th percentile of the tool's distance from its reference, out of contact",
         FOLLOWED,
+        GREATEST,
     ),
     "tracking.attitude_rmse_rad": MetricSpec(
         "rad",
         tracking.attitude_rmse,
         "angle between reference and true attitude, RMS, take-off to landing",
         FOLLOWED,
+        RMS_OVER_TIME,
     ),
     "tracking.attitude_max_rad": MetricSpec(
         "rad",
         tracking.attitude_max,
         "largest angle between reference and true attitude, take-off to landing",
         FOLLOWED,
+        GREATEST,
     ),
     "estimation.position_rmse_m": MetricSpec(
         "m",
         estimation.position_rmse,
         "distance between estimated and true position, RMS, take-off to landing",
         ESTIMATED,
+        RMS_OVER_TIME,
     ),
     "estimation.attitude_rmse_rad": MetricSpec(
         "rad",
         estimation.attitude_rmse,
         "angle between estimated and true attitude, RMS, take-off to landing",
         ESTIMATED,
+        RMS_OVER_TIME,
     ),
     "estimation.wrench_force_rmse_n": MetricSpec(
         "N",
         estimation.wrench_force_rmse,
         "observed against true external force, RMS length, between take-off and landing",
         ESTIMATED,
+        RMS_OVER_TIME,
     ),
     "estimation.wrench_torque_rmse_nm": MetricSpec(
         "N·m",
         estimation.wrench_torque_rmse,
         "observed against true external torque, RMS length, between take-off and landing",
         ESTIMATED,
+        RMS_OVER_TIME,
     ),
     "guidance.normal_error_mean_deg": MetricSpec(
         "°",
         guidance.normal_error_mean_deg,
         "mean angle between seen and true surface normal, valid estimates near the surface",
         (SurfaceEstimate, TrueContact, State, Reference),
+        MEAN_OVER_TIME,
     ),
     "guidance.tool_axis_error_mean_deg": MetricSpec(
         "°",
         guidance.tool_axis_error_mean_deg,
         "mean angle between the tool's axis and the true inward normal in contact",
         (State, Reference, TrueContact),
+        MEAN_OVER_TIME,
     ),
     "contact.force_mean_n": MetricSpec(
         "N",
         contact.force_mean,
         "mean over the points of the true normal force over the last 2 s of the dwell",
         FOLLOWED,
+        MEAN_OVER_POINTS,
     ),
     "contact.force_mean_min_n": MetricSpec(
         "N",
         contact.force_mean_min,
         "least of the points' mean forces; a point never pressed counts as 0",
         FOLLOWED,
+        LEAST,
     ),
     "contact.force_mean_max_n": MetricSpec(
-        "N", contact.force_mean_max, "greatest of the points' mean forces", FOLLOWED
+        "N",
+        contact.force_mean_max,
+        "greatest of the points' mean forces",
+        FOLLOWED,
+        GREATEST,
     ),
     "contact.force_peak_n": MetricSpec(
-        "N", contact.force_peak, "largest true normal force of the flight", (State,)
+        "N",
+        contact.force_peak,
+        "largest true normal force of the flight",
+        (State,),
+        GREATEST,
     ),
     "contact.force_cv": MetricSpec(
         "1",
         contact.force_cv,
         "worst coefficient of variation of a contact's true force after its first second",
         FOLLOWED,
+        GREATEST,
     ),
     "contact.bounce_gaps": MetricSpec(
         "1",
         contact.bounce_gaps,
         "gaps over 50 ms below 0.1 N between first touch and release, all points",
         FOLLOWED,
+        SUM,
     ),
     "contact.position_error_max_m": MetricSpec(
         "m",
         contact.position_error_max,
         "largest distance along the surface between planned and true contact point",
         FOLLOWED,
+        GREATEST,
     ),
     "contact.body_force_max_n": MetricSpec(
         "N",
         contact.body_force_max,
         "largest contact force on anything but tool and landing gear",
         (State,),
+        GREATEST,
     ),
     "contact.points_total": MetricSpec(
-        "1", half_cell.points_total, "points that the plan wants read", ()
+        "1",
+        half_cell.points_total,
+        "points that the plan wants read",
+        (),
+        SUM,
     ),
     "contact.points_valid": MetricSpec(
-        "1", half_cell.points_valid, "points with a valid reading", READ
+        "1",
+        half_cell.points_valid,
+        "points with a valid reading",
+        READ,
+        SUM,
     ),
     "contact.valid_share": MetricSpec(
-        "1", half_cell.valid_share, "valid readings as a share of the planned points", READ
+        "1",
+        half_cell.valid_share,
+        "valid readings as a share of the planned points",
+        READ,
+        MEAN_OVER_POINTS,
     ),
     "half_cell.false_valid_points": MetricSpec(
         "1",
         half_cell.false_valid_points,
         "valid readings whose tool did not truly press hard enough",
         (Reading, State, Reference),
+        SUM,
     ),
     "half_cell.potential_error_max_v": MetricSpec(
         "V",
         half_cell.potential_error_max,
         "largest error of an accepted potential against the specimen at the true contact",
         READ_TRULY,
+        GREATEST,
     ),
     "half_cell.resistance_error_rel_max": MetricSpec(
         "1",
         half_cell.resistance_error_rel_max,
         "largest relative error of an accepted resistance against the specimen",
         READ_TRULY,
+        GREATEST,
     ),
     "half_cell.active_points_count": MetricSpec(
-        "1", half_cell.active_points_count, "points with the combined verdict active", READ
+        "1",
+        half_cell.active_points_count,
+        "points with the combined verdict active",
+        READ,
+        SUM,
     ),
     "half_cell.active_mask": MetricSpec(
         "1",
@@ -185,6 +246,7 @@ METRICS: dict[str, MetricSpec] = {
         half_cell.map_mismatches,
         "points whose verdict differs from the specimen's; a point without one differs",
         READ_TRULY,
+        SUM,
     ),
     "pull.force_peak_n": MetricSpec(
         "N", pull.force_peak, "largest force of the rope on the tip over all pulls", PULLED
@@ -247,22 +309,7 @@ METRICS: dict[str, MetricSpec] = {
         "largest yaw over largest torque about z_B, mean over the pulls",
         PULLED,
     ),
-    "flight.duration_s": MetricSpec("s", operation.duration, "time off the ground", FOLLOWED),
-    "flight.energy_wh_planned": MetricSpec(
-        "Wh", operation.energy_planned, "energy of the flight by the plan", ()
-    ),
-    "flight.saturated_share": MetricSpec(
-        "1",
-        operation.saturated_share,
-        "share of the flight in which the allocation granted less than was asked",
-        (State, Reference, Command),
-    ),
-    "flight.end_speed_mps": MetricSpec(
-        "m/s", operation.end_speed, "largest true speed over the last second of the log", (State,)
-    ),
-    "actuators.thrust_max_n": MetricSpec(
-        "N", operation.thrust_max, "largest true thrust of a single rotor", (State,)
-    ),
+    **FLIGHT_METRICS,
     **ESTIMATION_METRICS,
     **SLIDING_METRICS,
 }

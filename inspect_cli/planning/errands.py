@@ -36,6 +36,7 @@ from inspect_cli.schema.tasks import (
     ContactGrid,
     ContactOptions,
     ContactPoints,
+    Coverage,
     Hold,
     Servo,
     ServoStart,
@@ -93,6 +94,7 @@ def errands_of(
     number = 1
     for place, task in enumerate(mission.tasks):
         work = task.work
+        assert not isinstance(work, Coverage)  # that is what planning.coverage is for
         impedance = task.impedance or mission.impedance
         errands: list[Errand]
         if isinstance(work, ContactGrid | ContactPoints):
@@ -152,7 +154,7 @@ class TouchErrand:
                 assessment, way = found
                 return ContactVisit(point, self.options, touch, way, assessment)
             reasons = reasons or found
-        return reasons or [_unreachable(point), *cable_reasons(point, situation.limits)]
+        return reasons or [unreachable(point), *cable_reasons(point, situation.limits)]
 
 
 @dataclass(frozen=True)
@@ -182,7 +184,7 @@ class TraceErrand:
             if not isinstance(found, list):
                 return found
             reasons = reasons or found
-        return reasons or [_unreachable(points[0])]
+        return reasons or [unreachable(points[0])]
 
     def _attempt(
         self, situation: Situation, points: Sequence[ContactPoint], first: Touch, before: Stop
@@ -318,7 +320,7 @@ def _line(
     for point in points[1:]:
         found = touches(capabilities, point, line[-1].contact)
         if not found:
-            return _unreachable(point)
+            return unreachable(point)
         line.append(found[0])
     return line
 
@@ -339,6 +341,7 @@ def _worst(
     return replace(tightest, gap=gap, reasons=tuple(dict.fromkeys(reasons)))
 
 
-def _unreachable(point: ContactPoint) -> Reason:
+def unreachable(point: ContactPoint) -> Reason:
+    """That no posture brings the tool there."""
     what = f"no posture brings the tool to {in_words(point.p_WC)} along {in_words(-point.n_W)}"
     return Reason(what, "use a tool at another angle, or touch another surface")

@@ -11,7 +11,7 @@ from inspect_cli.interfaces import Capabilities, Margins
 from inspect_cli.planning.clearance import Gap, Scene, gap_along
 from inspect_cli.planning.contact_poses import Touch
 from inspect_cli.planning.points import ContactPoint, in_words
-from inspect_cli.schema.mission import Start
+from inspect_cli.schema.start import Start
 from inspect_cli.spatial.arrays import Vector
 
 FREE = np.zeros(6)

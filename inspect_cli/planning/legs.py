@@ -53,7 +53,7 @@ def plan_of(
     energy_j, length_m = 0.0, 0.0
     before = itinerary.standing
     for stretch in stretches(itinerary):
-        leg, cost_j = _leg(stretch, before, mission.flight, capabilities)
+        leg, cost_j = leg_of(stretch, before, mission.flight, capabilities)
         energy_j += cost_j
         length_m += path_m((before, *stretch.postures))
         legs.append(leg)
@@ -75,7 +75,7 @@ def plan_of(
     )
 
 
-def _leg(
+def leg_of(
     stretch: Stretch, before: Posture, flight: FlightOptions, capabilities: Capabilities
 ) -> tuple[Leg, float]:
     """The leg and the energy, J, that it takes."""

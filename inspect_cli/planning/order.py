@@ -45,7 +45,7 @@ def boustrophedon(rows: int, columns: int) -> list[int]:
 
 
 def shortest(points_W: Points, start_W: Vector) -> list[int]:
-    """A short open path from ``start_W`` (3,) through all ``points_W`` (n, 3); indices (n,).
+    """A short open path from ``start_W`` (d,) through all ``points_W`` (n, d); indices (n,).
 
     Nearest neighbour from several first points, each improved by 2-opt (Croes, Oper. Res. 6,
     1958) and or-opt (Or, thesis, 1976) until neither gains; the best of them.

@@ -22,9 +22,10 @@ from inspect_cli.planning.feasibility import (
 from inspect_cli.planning.legs import Itinerary, plan_of
 from inspect_cli.planning.path import Stop, find_way
 from inspect_cli.planning.visits import Visit
-from inspect_cli.schema.mission import Mission, Start
+from inspect_cli.schema.mission import Mission
 from inspect_cli.schema.plan import Plan, PlannedSurface
 from inspect_cli.schema.primitives import primitive_of
+from inspect_cli.schema.start import Start
 from inspect_cli.spatial.rotations import quaternion_exp
 from inspect_cli.structure.drawings import Stroke
 
@@ -50,10 +51,10 @@ def make_plan(
     physical reasons.
     """
     scene = Scene.of(surfaces)
-    standing, hover = _start_postures(mission.start, capabilities)
+    standing, hover = start_postures(mission.start, capabilities)
     limits = Limits(mission.flight.clearance_m, cable_m, clamp_of(mission.start), min_force_n)
     situation = Situation(capabilities, scene, limits)
-    _check_start(situation, standing, hover)
+    check_start(situation, standing, hover)
 
     prims = {surface.name: primitive_of(surface.shape) for surface in surfaces}
     errands = errands_of(mission, capabilities, prims, drawings, hover)
@@ -76,7 +77,7 @@ def make_plan(
     return plan
 
 
-def _start_postures(start: Start, capabilities: Capabilities) -> tuple[Posture, Posture]:
+def start_postures(start: Start, capabilities: Capabilities) -> tuple[Posture, Posture]:
     """The vehicle as it stands, and hovering above that at the height of take-off."""
     if start.takeoff_height_m <= capabilities.standing_height_m:
         raise InfeasibleError(
@@ -98,7 +99,7 @@ def _with_arm_at_rest(capabilities: Capabilities, bare: Posture) -> Posture:
     return bare if found is None else replace(bare, arm_angle=found.arm_angle)
 
 
-def _check_start(situation: Situation, standing: Posture, hover: Posture) -> None:
+def check_start(situation: Situation, standing: Posture, hover: Posture) -> None:
     """Refuse a start from which the vehicle cannot rise."""
     scene = situation.scene.without_stood_on(standing, situation.capabilities.standing_height_m)
     gap = gap_along(situation.capabilities, scene, [standing, hover])

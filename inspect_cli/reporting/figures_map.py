@@ -22,6 +22,8 @@ from inspect_cli.schema.plan import Plan, PlannedSurface
 
 SAME_LINE_M = 1e-3
 """Planned points whose coordinate differs by less stand in one row or column."""
+LEAST_FILLED_SHARE = 0.9
+"""Least share of a grid's nodes that were asked for; a survey leaves a few out."""
 LEAST_VALID_SHARE = 0.75
 """Least share of valid readings in a grid for contours to mean something."""
 MAX_WRITTEN_VALUES = 80
@@ -100,19 +102,36 @@ def potential_grid(
 ) -> tuple[list[float], list[float], list[list[float | None]]] | None:
     """(u, v, potentials by row) if the points fill a grid of at least two rows and two columns.
 
-    Nodes whose reading is invalid are None, and nothing is drawn across them. Points that leave
-    a node empty, or grids with few valid readings, give None: a contour would be invented.
+    Nodes that were left out or whose reading is invalid are None, and nothing is drawn across
+    them. Grids with few valid readings give None: a contour would be invented. Single points
+    between the lines of a grid, where a survey was refined, are no nodes of it.
     """
     places = [(p.point.uv_m, p.point.potential_mv) for p in points if p.point.uv_m is not None]
-    columns = _lines([uv[0] for uv, _ in places])
-    rows = _lines([uv[1] for uv, _ in places])
-    nodes = {(_nearest(rows, uv[1]), _nearest(columns, uv[0])): mv for uv, mv in places}
-    if len(columns) < 2 or len(rows) < 2 or len(nodes) < len(columns) * len(rows):
+    columns = _full_lines([uv[0] for uv, _ in places])
+    rows = _full_lines([uv[1] for uv, _ in places])
+    if len(columns) < 2 or len(rows) < 2:
         return None
-    valid = sum(potential is not None for potential in nodes.values())
-    if valid < LEAST_VALID_SHARE * len(nodes):
+    table: list[list[float | None]] = [[None] * len(columns) for _ in rows]
+    filled = 0
+    for (u, v), potential_mv in places:
+        i, j = _nearest(rows, v), _nearest(columns, u)
+        if abs(rows[i] - v) <= SAME_LINE_M and abs(columns[j] - u) <= SAME_LINE_M:
+            table[i][j] = potential_mv
+            filled += 1
+    nodes = len(rows) * len(columns)
+    valid = sum(potential is not None for row in table for potential in row)
+    if filled < LEAST_FILLED_SHARE * nodes or valid < LEAST_VALID_SHARE * nodes:
         return None
-    return columns, rows, [[nodes[i, j] for j in range(len(columns))] for i in range(len(rows))]
+    return columns, rows, table
+
+
+def _full_lines(values: Sequence[float]) -> list[float]:
+    """The lines on which at least half as many points stand as on the fullest."""
+    lines = _lines(values)
+    counts = [0] * len(lines)
+    for value in values:
+        counts[_nearest(lines, value)] += 1
+    return [line for line, count in zip(lines, counts, strict=True) if 2 * count >= max(counts)]
 
 
 def _lines(values: Sequence[float]) -> list[float]:

@@ -80,9 +80,9 @@ def report_html(log: RunLog, result: Result, plan: Plan) -> str:
     works = works_of(log, plan)
     timeline = timeline_of(rows_of(log, Reference), plan)
     title = log.mission().title or result.mission
-    sections = [Section("summary", "Summary", _summary(log, result, works, points))]
+    sections = [Section("summary", "Summary", summary(log, result, works, points))]
     if points:
-        sections.append(Section("survey", "Corrosion survey", _survey(log, plan, points)))
+        sections.append(Section("survey", "Corrosion survey", survey_content(log, plan, points)))
     sections += experiment_sections(log, result, plan, works, timeline)
     flight = _flight(log, result, plan, works, points, timeline)
     sections.append(Section("flight", "Flight", flight))
@@ -90,10 +90,11 @@ def report_html(log: RunLog, result: Result, plan: Plan) -> str:
         sections.append(Section("structure", "Structure", fits_table(plan)))
     sections.append(Section("provenance", "Provenance", provenance(log, result, plan)))
     kind = "inspection report" if points else "flight report"
-    return page(f"{title} – {kind}", _header(log, result, works, title), sections)
+    return page(f"{title} – {kind}", header(log, result, works, title), sections)
 
 
-def _header(log: RunLog, result: Result, works: Works, title: str) -> Markup:
+def header(log: RunLog, result: Result, works: Works, title: str) -> Markup:
+    """What was flown, with what, and how it ended."""
     mission, platform = log.mission(), log.platform()
     description = mission.description
     facts = [
@@ -111,7 +112,8 @@ def _header(log: RunLog, result: Result, works: Works, title: str) -> Markup:
     )
 
 
-def _summary(log: RunLog, result: Result, works: Works, points: Sequence[ReadPoint]) -> Markup:
+def summary(log: RunLog, result: Result, works: Works, points: Sequence[ReadPoint]) -> Markup:
+    """Warnings, finding, key figures, checks, caveats."""
     checks = (
         checks_table(result.checks)
         if result.checks
@@ -127,7 +129,8 @@ def _summary(log: RunLog, result: Result, works: Works, points: Sequence[ReadPoi
     )
 
 
-def _survey(log: RunLog, plan: Plan, points: Sequence[ReadPoint]) -> Markup:
+def survey_content(log: RunLog, plan: Plan, points: Sequence[ReadPoint]) -> Markup:
+    """The readings: map, tables, diagrams, and how they were taken."""
     diagrams = [cumulative_figure(points), resistivity_figure(points)]
     return joined(
         drawn(map_figures(points, plan)),

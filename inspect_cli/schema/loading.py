@@ -18,7 +18,12 @@ from inspect_cli.schema.campaign import campaign_root, inside, is_file, platform
 from inspect_cli.schema.explain import problems_of, shown, suggest
 from inspect_cli.schema.mission import Mission, MissionFile
 from inspect_cli.schema.nodes import Node, merged, without
-from inspect_cli.schema.references import dangling_surfaces, file_problem, resolved_files
+from inspect_cli.schema.references import (
+    crowded_coverages,
+    dangling_surfaces,
+    file_problem,
+    resolved_files,
+)
 from inspect_cli.schema.strict_yaml import read_yaml
 from inspect_cli.schema.truth import TruthModel
 from inspect_cli.schema.vehicle import PLATFORM_KINDS, PlatformBase
@@ -56,7 +61,7 @@ def load_mission(path: Path, platform: Path | None = None) -> Loaded:
     """
     root = campaign_root(path)
     node, problems = resolved_files(_read_extended(path, root, ()), root)
-    problems += dangling_surfaces(node)
+    problems += [*dangling_surfaces(node), *crowded_coverages(node)]
     file = _validated(MissionFile, node, problems)
 
     asked = _asked_platform(platform, root, problems) if platform else None

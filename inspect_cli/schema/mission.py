@@ -15,6 +15,7 @@ from inspect_cli.schema.base import (
 )
 from inspect_cli.schema.geometry import Displacement, Shape
 from inspect_cli.schema.positioning import Estimation
+from inspect_cli.schema.start import Start
 from inspect_cli.schema.tasks import Task
 from inspect_cli.schema.truth import TruthModel
 
@@ -100,14 +101,6 @@ class StructureSurface(Strict):
     surface: SurfaceSource
 
 
-class Start(Strict):
-    """Where the vehicle stands before take-off and lands again."""
-
-    position_m: tuple[float, float] = (0.0, 0.0)
-    heading_deg: float = 0.0
-    takeoff_height_m: Annotated[float, Field(gt=0, le=120)] = 1.0
-
-
 class FlightOptions(Strict):
     """How the plan may fly; lowers the platform's limits, never raises them."""
 
@@ -179,6 +172,19 @@ class Mission(Strict):
                 known = ", ".join(names) if names else "none"
                 raise ValueError(f"a task is on '{task.on}'; the surfaces are: {known}")
         return self
+
+    @model_validator(mode="after")
+    def _coverage_alone(self) -> Mission:
+        if len(self.tasks) > 1 and any(task.coverage is not None for task in self.tasks):
+            raise ValueError(
+                "a coverage is split into sorties and must be the only task of its mission"
+            )
+        return self
+
+    @property
+    def is_survey(self) -> bool:
+        """Whether it covers a surface by sorties."""
+        return self.tasks[0].coverage is not None
 
 
 class MissionFile(Mission):

@@ -21,7 +21,12 @@ FILES = (
 )
 """Where a mission names files; their paths are relative to the file that they stand in."""
 
-SURFACES = ("tasks.*.contact_grid.on", "tasks.*.contact_points.on", "tasks.*.trace.on")
+SURFACES = (
+    "tasks.*.contact_grid.on",
+    "tasks.*.contact_points.on",
+    "tasks.*.coverage.on",
+    "tasks.*.trace.on",
+)
 """Where a mission names one of its surfaces."""
 
 
@@ -86,3 +91,16 @@ def dangling_surfaces(mission: Node) -> list[Problem]:
             hint = f"{suggest(name, names)}; one that only the truth knows states its geometry"
             problems.append(Problem(what, node.key_at(join(steps)), hint))
     return problems
+
+
+def crowded_coverages(mission: Node) -> list[Problem]:
+    """Coverages that are not the only task of their mission."""
+    tasks = mission.child("tasks")
+    if tasks is None or len(list(tasks.children())) < 2:
+        return []
+    what = "a coverage is split into sorties and must be the only task of its mission"
+    hint = "give it a mission of its own"
+    return [
+        Problem(what, node.key_at(join(steps)), hint)
+        for steps, node in matches(mission, "tasks.*.coverage")
+    ]

@@ -13,6 +13,7 @@ from typing import Annotated, Literal
 from pydantic import Field, model_validator
 
 from inspect_cli.schema.base import Name, NonNegative, Positive, Strict, Triple
+from inspect_cli.schema.start import Start
 
 MAX_POINTS = 10_000
 SHORTEST_M = 1e-4
@@ -73,6 +74,46 @@ class ContactPoints(ContactOptions):
     """World positions on the surface, within ``tolerance_m`` of it."""
     tolerance_m: Positive = 0.05
     order: Literal["given", "shortest"] = "given"
+
+
+class KeepOut(Strict):
+    """A round part of a surface that is not touched."""
+
+    at_m: tuple[float, float]
+    """(u, v) of its middle."""
+    radius_m: Positive
+    """Along the surface."""
+
+
+class Refinement(Strict):
+    """The rule of ASTM C876 for a closer spacing: points between neighbours that differ much."""
+
+    difference_mv: Positive = 150.0
+    """Neighbouring readings that differ by more get points between them."""
+    pitch_m: Positive | None = None
+    """At most this far apart; by default half the pitch of the coverage, one point between."""
+    max_points: Annotated[int, Field(ge=1, le=MAX_POINTS)] = 20
+    """In the whole survey; the greatest differences come first."""
+
+
+class Coverage(ContactOptions):
+    """A whole surface, filled with contact points and flown in as many sorties as it takes."""
+
+    on: Name
+    pitch_m: Positive
+    """Between neighbouring points along the surface."""
+    edge_m: NonNegative | None = None
+    """No point is nearer to the surface's edge; by default half the pitch."""
+    offset_m: tuple[float, float] = (0.0, 0.0)
+    """(u, v) by which the points are shifted from where they lie evenly on the surface."""
+    keep_out: tuple[KeepOut, ...] = ()
+    reserve: Annotated[float, Field(ge=0, lt=1)] = 0.10
+    """Share of the battery's energy that no sortie plans with."""
+    starts: tuple[Start, ...] = ()
+    """Where sorties may take off and land, each with the cable's clamp under it; by default the
+    mission's start."""
+    refine: Refinement | None = None
+    """Without it, no points are added in flight."""
 
 
 class Hold(Strict):
@@ -149,7 +190,7 @@ class Servo(Pressing):
     """Time in contact before and after the slide."""
 
 
-Work = ContactGrid | ContactPoints | Hold | Trace | Servo
+Work = ContactGrid | ContactPoints | Coverage | Hold | Trace | Servo
 
 
 class Task(Strict):
@@ -157,6 +198,7 @@ class Task(Strict):
 
     contact_grid: ContactGrid | None = None
     contact_points: ContactPoints | None = None
+    coverage: Coverage | None = None
     hold: Hold | None = None
     trace: Trace | None = None
     servo: Servo | None = None
@@ -189,10 +231,10 @@ class Task(Strict):
     def instrument(self) -> Instrument | None:
         """What reads at its points."""
         if self.sensor is None:
-            is_contact = self.contact_grid is not None or self.contact_points is not None
+            is_contact = any(getattr(self, name) is not None for name in CONTACTS)
             return "half_cell" if is_contact else None
         return None if self.sensor == "none" else self.sensor
 
 
-CONTACTS = ("contact_grid", "contact_points")
+CONTACTS = ("contact_grid", "contact_points", "coverage")
 KINDS = (*CONTACTS, "hold", "trace", "servo")

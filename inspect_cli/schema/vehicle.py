@@ -7,6 +7,7 @@ Numbers that no source gives are chosen once and listed under ``chosen`` with th
 from __future__ import annotations
 
 import math
+from dataclasses import dataclass
 from typing import Annotated, Literal
 
 from pydantic import AfterValidator, Field, model_validator
@@ -168,6 +169,19 @@ class Battery(Strict):
     figure_of_merit: Annotated[float, Field(gt=0, le=1)]
 
 
+@dataclass(frozen=True)
+class RotorDrive:
+    """What a rotor's speed follows from and what turning it costs.
+
+    Thrust T = k_f ω² and shaft moment Q = k_m T in free air; ``efficiency`` is that of motor and
+    controller, from the battery to the shaft.
+    """
+
+    thrust_constant_ns2: float
+    moment_constant_m: float
+    efficiency: float
+
+
 class PlatformBase(Strict):
     """What every kind of vehicle states."""
 
@@ -186,6 +200,10 @@ class PlatformBase(Strict):
     battery: Battery
     sensors: Sensors
     control: ControlModel
+
+    def rotor_drives(self) -> tuple[RotorDrive, ...] | None:
+        """The drive of each rotor in the order of the records; None where a kind states none."""
+        return None
 
     def positioning(self, estimation: Estimation) -> tuple[PoseNoise, int]:
         """The white noise and the rate of the poses that an estimation is based on.
@@ -208,6 +226,8 @@ class Rotor(Strict):
     thrust_constant_ns2: Positive
     time_up_s: Positive
     time_down_s: Positive
+    drive_efficiency: Annotated[float, Field(gt=0, le=1)]
+    """Of motor and controller: shaft power over electrical power."""
 
 
 class TiltArm(Strict):
@@ -293,6 +313,16 @@ class TiltRotorPlatform(PlatformBase):
     unit: TiltUnit
     groups: Annotated[tuple[TiltArm, ...], Field(min_length=3), AfterValidator(_apart)]
     tool: Tool
+
+    def rotor_drives(self) -> tuple[RotorDrive, ...]:
+        """Upper and lower of each group."""
+        unit, rotor = self.unit, self.rotor
+        pair = (unit.moment_constant_upper_m, unit.moment_constant_lower_m)
+        drives = tuple(
+            RotorDrive(rotor.thrust_constant_ns2, moment_m, rotor.drive_efficiency)
+            for moment_m in pair
+        )
+        return drives * len(self.groups)
 
 
 PLATFORM_KINDS: dict[str, type[PlatformBase]] = {"tilt_rotor": TiltRotorPlatform}

@@ -10,11 +10,12 @@ from rich.table import Table
 
 from inspect_cli.files import write_whole
 from inspect_cli.schema.loading import load_mission
-from tests.bench import camera, fits, flights, processes
+from tests.bench import camera, fits, flights, processes, surveys
 from tests.bench.rows import Row, as_json
 
 ROOT = Path(__file__).resolve().parents[2]
 MISSION = ROOT / "missions" / "nine_point_half_cell.yaml"
+SURVEY = ROOT / "missions" / "paper_a" / "vault_coverage.yaml"
 
 
 def main() -> int:
@@ -26,6 +27,7 @@ def main() -> int:
         camera.measure(ROOT),
         flights.measure(load_mission(MISSION)),
         processes.measure(MISSION),
+        surveys.measure(SURVEY),
     ):
         rows.extend(measured)
     write_whole(ROOT / "reports" / "bench.json", as_json(rows))

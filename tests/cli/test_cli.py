@@ -162,7 +162,7 @@ def test_a_platform_of_negative_mass(campaign: Path, capsys: pytest.CaptureFixtu
     mission = campaign / "missions" / "nine_point_half_cell.yaml"
     before = files(campaign)
     assert cli.run(["plan", str(mission), "--platform", str(platform)]) == 2
-    message = f"error: {platform}:36:12: core.mass_kg: must be above 0; found -2.76\n"
+    message = f"error: {platform}:42:12: core.mass_kg: must be above 0; found -2.76\n"
     assert capsys.readouterr().err.endswith(message)
     assert files(campaign) == before
 

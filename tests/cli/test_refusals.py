@@ -88,7 +88,7 @@ def test_bad_missions(
 
 def test_platform_with_negative_mass(refused: Callable[..., str]) -> None:
     said = refused(GIVEN, lambda text: text.replace("  mass_kg: 2.76", "  mass_kg: -2.76"))
-    assert "tilt_rotor_hexarotor.yaml:36:12" in said
+    assert "tilt_rotor_hexarotor.yaml:42:12" in said
     assert "mass_kg" in said
 
 

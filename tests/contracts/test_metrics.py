@@ -22,14 +22,14 @@ SUFFIXES = {
     "N·m": ("_nm",),
     "V": ("_v",),
     "s": ("_s",),
-    "Wh": ("_wh_planned",),
+    "Wh": ("_wh_planned", "_wh_flown"),
     "m/s": ("_mps",),
     "m/N": ("_per_newton",),
     "rad/(N·m)": ("_per_nm",),
     "1": (
         *("_growth", "_over_hovering"),
         *("_cv", "_count", "_gaps", ".gaps", "_mask", "_mismatches", "_points", "_rel_max"),
-        *("_share", "_total", "_valid", "_over_attitude", "_over_z"),
+        *("_share", "_total", "_valid", "_over_attitude", "_over_flown", "_over_z"),
     ),
 }
 """How the names of metrics end, by their unit."""

@@ -11,6 +11,7 @@ import pytest
 
 from inspect_cli.commands.plan import plan_loaded, vehicle_of
 from inspect_cli.metrics.catalogue import METRICS
+from inspect_cli.schema.coverage import CoveragePlan
 from inspect_cli.schema.json_schema import committed_file
 from inspect_cli.schema.loading import load_mission
 from inspect_cli.schema.plan import Plan
@@ -47,6 +48,8 @@ def targets_of(task: Task) -> int:
     """How many targets a task comes to; a drawing at least one each time it is traced."""
     if task.contact_grid is not None:
         return task.contact_grid.rows * task.contact_grid.columns
+    if task.coverage is not None:
+        return 0  # the surface decides
     if task.contact_points is not None:
         return len(task.contact_points.at_m)
     return task.trace.repeat if task.trace is not None else 1
@@ -55,6 +58,11 @@ def targets_of(task: Task) -> int:
 def test_it_plans(mission_file: Path) -> None:
     loaded = load_mission(mission_file)
     plan = plan_loaded(loaded, vehicle_of(loaded))
+    if isinstance(plan, CoveragePlan):
+        assert max(sortie.plan.energy_wh for sortie in plan.sorties) <= plan.budget_wh
+        again = CoveragePlan.model_validate_json(plan.model_dump_json(by_alias=True))
+        assert (again.sorties, again.skipped) == (plan.sorties, plan.skipped)
+        return
     asked = sum(targets_of(task) for task in loaded.mission.tasks)
     assert len(plan.targets) == asked
     assert [target.index for target in plan.targets] == list(range(asked))

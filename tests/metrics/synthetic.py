@@ -353,6 +353,7 @@ def _platform() -> TiltRotorPlatform:
             "thrust_constant_ns2": 7.2e-6,
             "time_up_s": 0.0125,
             "time_down_s": 0.025,
+            "drive_efficiency": 0.65,
         },
         "unit": {
             "distance_m": 0.3,

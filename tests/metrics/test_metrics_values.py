@@ -54,6 +54,8 @@ UNMEASURED |= {
     name for name in METRICS if name.startswith(("force_sensor.", "estimation.expected_"))
 }
 
+# Six rotors with k_m 0.015 m and six with 0.005 m at 4 N, drives of 0.65, 25 W beside them.
+FLOWN_WH = (6 * 0.020 * 4.0 * math.sqrt(4.0 / 7.2e-6) / 0.65 + 25.0) * (104.5 - 0.01) / 3600.0
 EXPECTED = {
     # The tracking error is the constant (3, −4, 12) mm, of length 13 mm.
     "tracking.position_rmse_x_m": 0.003,
@@ -99,6 +101,8 @@ EXPECTED = {
     # Take-off 4 s, nine times 10.5 s, home 2 s, land 4 s, at 100 rows per second.
     "flight.duration_s": 104.5 - 0.01,
     "flight.energy_wh_planned": 12.5,
+    "flight.energy_wh_flown": FLOWN_WH,
+    "flight.energy_planned_over_flown": 12.5 / FLOWN_WH,
     "flight.saturated_share": 0.0,
     "flight.end_speed_mps": 0.0,
     "actuators.thrust_max_n": 4.0,

@@ -104,7 +104,7 @@ def test_limits_of_a_mission(refusal: Refusal, old: str, new: str, message: str)
         (
             "inertia_kgm2: [0.0090, 0.0131, 0.0164]",
             "inertia_kgm2: [0.0090, 0.0131, 0.0222]",
-            "p.yaml:39:17: core.inertia_kgm2: no body has these moments of inertia: "
+            "p.yaml:43:17: core.inertia_kgm2: no body has these moments of inertia: "
             "0.0222 about z is more than the sum of the other two, 0.0221",
         ),
         (

@@ -383,8 +383,8 @@ def test_problems_of_mission_and_platform_come_together(campaign: Path) -> None:
 @pytest.mark.parametrize(
     ("old", "new", "message"),
     [
-        ("mass_kg: 2.76", "mass_kg: -2.76", "38:12: core.mass_kg: must be above 0; found -2.76"),
-        ("mass_kg: 2.76", "mass_g: 2760", "38:3: core.mass_g: unknown key 'mass_g'"),
+        ("mass_kg: 2.76", "mass_kg: -2.76", "42:12: core.mass_kg: must be above 0; found -2.76"),
+        ("mass_kg: 2.76", "mass_g: 2760", "42:3: core.mass_g: unknown key 'mass_g'"),
         (
             "schema: 1\n",
             "schema: 1\nrates: {control_hz: -250}\n",

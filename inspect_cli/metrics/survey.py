@@ -1,0 +1,127 @@
+"""From the results of several flights of one survey to one result."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+
+from inspect_cli.metrics.acceptance import answer_all
+from inspect_cli.metrics.catalogue import METRICS
+from inspect_cli.metrics.joined import Joined
+from inspect_cli.schema.mission import Acceptance
+from inspect_cli.schema.plan import Target
+from inspect_cli.schema.result import Metric, PointResult, Result, Status
+
+UNVISITED = "not visited"
+MISSED = ("contact.points_total", "half_cell.map_mismatches")
+"""Counts in which a point that no flight came to counts, too."""
+
+
+def joined_result(
+    results: Sequence[Result],
+    unvisited: Sequence[Target],
+    acceptance: Iterable[Acceptance],
+    seed: int | None,
+) -> Result:
+    """The flights as one survey: all points, every metric by its rule, the mission's acceptance.
+
+    Args:
+        results: of the flights in their order, one at least.
+        unvisited: the targets of flights that were planned and not flown.
+        acceptance: of the mission.
+        seed: of the whole run, from which those of the flights were drawn.
+    """
+    first = results[0]
+    metrics = joined_metrics(results, len(unvisited))
+    status, reason = _status(results, len(unvisited))
+    return Result(
+        mission=first.mission,
+        platform=first.platform,
+        seed=seed,
+        status=status,
+        status_reason=reason,
+        checks=answer_all(acceptance, metrics),
+        metrics=metrics,
+        points=tuple(_numbered([*_visited(results), *map(_never_read, unvisited)])),
+    )
+
+
+def joined_metrics(results: Sequence[Result], unvisited: int = 0) -> dict[str, Metric]:
+    """Every metric of the flights by the rule that stands beside it in the catalogue.
+
+    A metric that one of the flights does not have is not measured of the survey either. The
+    ``unvisited`` points of flights that were not flown count as points and have no reading.
+    """
+    metrics = {name: _joined(name, spec.joined, results) for name, spec in METRICS.items()}
+    if not unvisited:
+        return metrics
+    for name in MISSED:
+        value = metrics[name].value
+        if value is not None:
+            metrics[name] = metrics[name].model_copy(update={"value": value + unvisited})
+    total, valid = metrics["contact.points_total"].value, metrics["contact.points_valid"].value
+    if total is not None and valid is not None:
+        share = metrics["contact.valid_share"].model_copy(update={"value": valid / total})
+        metrics["contact.valid_share"] = share
+    return metrics
+
+
+def _joined(name: str, joined: Joined, results: Sequence[Result]) -> Metric:
+    unit = METRICS[name].unit
+    if joined.rule == "none":
+        why = "it belongs to a single flight and is in the report of each"
+        return Metric(value=None, unit=unit, why=why)
+    needed = [name, joined.weight] if joined.weight else [name]
+    for number, result in enumerate(results, 1):
+        for other in needed:
+            metric = result.metrics.get(other)
+            if metric is None or metric.value is None:
+                why = metric.why if metric else f"there is no metric '{other}'"
+                return Metric(value=None, unit=unit, why=f"sortie {number}: {why}")
+    values = [_value(result, name) for result in results]
+    weights = [_value(result, joined.weight) if joined.weight else 1.0 for result in results]
+    if joined.weight and sum(weights) <= 0.0:
+        return Metric(value=None, unit=unit, why=f"{joined.weight} is zero in every sortie")
+    return Metric(value=joined.of(values, weights), unit=unit)
+
+
+def _value(result: Result, name: str) -> float:
+    return result.metrics[name].value or 0.0
+
+
+def _status(results: Sequence[Result], unvisited: int) -> tuple[Status, str]:
+    """Completed if every flight was; else how the first that was not ended."""
+    for number, result in enumerate(results, 1):
+        if result.status != "completed":
+            why = f": {result.status_reason}" if result.status_reason else ""
+            return result.status, f"sortie {number} was {result.status}{why}"
+    if unvisited:
+        return "interrupted", f"only the first {len(results)} sorties were flown"
+    return "completed", ""
+
+
+def _visited(results: Sequence[Result]) -> Iterable[PointResult]:
+    return (point for result in results for point in result.points)
+
+
+def _never_read(target: Target) -> PointResult:
+    return PointResult(
+        index=target.index,
+        label=target.label,
+        valid=False,
+        reason=UNVISITED,
+        p_W=target.p_WC,
+        uv_m=target.uv_m,
+        potential_mv=None,
+        resistance_ohm=None,
+        resistivity_ohm_m=None,
+        probe_force_n=None,
+        contact_s=0.0,
+        astm_class=None,
+        corrosion=None,
+    )
+
+
+def _numbered(points: Iterable[PointResult]) -> Iterable[PointResult]:
+    """The points with their place in the whole survey as their index."""
+    for index, point in enumerate(points):
+        yield point.model_copy(update={"index": index})
