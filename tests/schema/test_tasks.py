@@ -52,7 +52,7 @@ def refused(mission_with: WithTasks, *tasks: str, structure: str = WALL) -> str:
 @pytest.mark.parametrize(
     ("task", "path", "what"),
     [
-        ("{}", "tasks[0]", "exactly one of contact_grid, contact_points, hold, trace, servo"),
+        ("{}", "tasks[0]", "exactly one of contact_grid"),
         (f"{{{HOLD}, trace: {{on: wall, {LINE}}}}}", "tasks[0]", "give exactly one of"),
         (f"{{{HOLD}, sensor: half_cell}}", "tasks[0]", "a hold has none to read at"),
         (f"{{trace: {{on: wall, {LINE}}}, sensor: half_cell}}", "tasks[0]", "a trace has none"),
