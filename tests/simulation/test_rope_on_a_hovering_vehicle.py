@@ -37,13 +37,14 @@ def pull(profile: str, direction: tuple[float, float, float], force_n: float) ->
 
     The stack is given the true motion; it observes the wrench itself.
     """
-    vehicle = build_vehicle(load_platform(PLATFORM), profile)
+    vehicle = build_vehicle(load_platform(PLATFORM))
     one = Pull(start_s=1.0, hold_s=HELD_S, force_n=force_n)
     rope = Rope(kind="rope", direction=direction, stiffness_npm=CORD_NPM, pulls=(one,))
     plant = plant_of(vehicle, disturbances=[rope])
     placed(plant, START.tolist())
     stack, pose = vehicle.flight_stack(), Pose.create()
     reference = Reference.create(vehicle.capabilities.lengths)
+    reference.impedance = float(vehicle.capabilities.impedances.index(profile))
     for record in (pose, reference):
         record.p_WB[:], record.q_WB[:] = START, [1.0, 0.0, 0.0, 0.0]
     stack.start(pose)
