@@ -37,6 +37,8 @@ STAND_S = 1.5
 """On the ground after the motors have stopped."""
 PAUSE_S = 0.2
 """At rest at the end of each stretch before the next begins."""
+SIGHT_S = 0.1
+"""From then on until the next image of the depth camera, on the average."""
 SAFE_HOVER_S = 3.0
 """Hover at rest after an abort before the run ends."""
 NEAREST_SHARE = 0.4

@@ -7,16 +7,26 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from inspect_cli.autonomy.executive import PAUSE_S, SIGHT_S
 from inspect_cli.interfaces import Capabilities, Posture
 from inspect_cli.planning.feasibility import clamp_of
 from inspect_cli.planning.path import Way
 from inspect_cli.planning.timing import duration_and_energy, path_m
 from inspect_cli.planning.visits import Stretch, Visit, posture_model
 from inspect_cli.schema.mission import FlightOptions, Mission
-from inspect_cli.schema.plan import Leg, Plan, PlannedSurface
+from inspect_cli.schema.plan import Leg, LegKind, Plan, PlannedSurface
 from inspect_cli.spatial.arrays import Vector
 
 JOULE_PER_WH = 3600.0
+WAITING_S: dict[LegKind, float] = {
+    "takeoff": PAUSE_S,
+    "transit": PAUSE_S,
+    "approach": 2.0 * PAUSE_S + SIGHT_S,
+    "retreat": PAUSE_S,
+    "land": PAUSE_S,
+}
+"""What the executive waits in a leg beyond its ways and its dwell: at rest at its end, and before
+an approach for the surface to be seen."""
 
 
 @dataclass(frozen=True)
@@ -80,13 +90,14 @@ def leg_of(
 ) -> tuple[Leg, float]:
     """The leg and the energy, J, that it takes."""
     speed_mps = stretch.speed_mps or _speed(stretch.kind, flight, capabilities)
+    waiting_s = stretch.dwell_s + WAITING_S.get(stretch.kind, 0.0)
     if stretch.moving_s > 0.0:
         # The tool follows a line of its own; its time is known, its power is that of its end.
-        time_s = stretch.moving_s + stretch.dwell_s
+        time_s = stretch.moving_s + waiting_s
         cost_j = time_s * capabilities.hover_power_w(stretch.postures[-1])
     else:
         postures = (before, *stretch.postures)
-        time_s, cost_j = duration_and_energy(postures, speed_mps, stretch.dwell_s, capabilities)
+        time_s, cost_j = duration_and_energy(postures, speed_mps, waiting_s, capabilities)
     leg = Leg(
         kind=stretch.kind,
         target=stretch.target,

@@ -12,6 +12,7 @@ from typing import Protocol
 
 import numpy as np
 
+from inspect_cli.autonomy.executive import PAUSE_S
 from inspect_cli.interfaces import Capabilities, Posture
 from inspect_cli.planning.contact_poses import Touch
 from inspect_cli.planning.feasibility import Assessment
@@ -156,7 +157,7 @@ class StrokeVisit:
         speed = self.stroke.speed_mps
         yield Stretch("approach", index, (self.touch.contact,))
         yield Stretch("press", index, (self.touch.setpoint,), self.settle_s)
-        yield Stretch("slide", index, self.along, 0.0, self.moving_s, speed)
+        yield Stretch("slide", index, self.along, PAUSE_S, self.moving_s, speed)
         yield Stretch("retreat", index, (self.leave.standoff,))
 
     def target(self, index: int) -> Target:

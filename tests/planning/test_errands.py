@@ -89,10 +89,10 @@ def test_two_holds_at_one_place_are_joined_by_no_way():
 
 
 def test_times_of_a_stroke_and_a_following():
-    """ℓ/v + 15/8 v/a of a line from rest to rest; ℓ/v and the settling of a following."""
+    """ℓ/v + 15/8 v/a of a line from rest to rest and a pause; ℓ/v and the settling of a following."""
     plan = planned(trace(speed_mps=0.1, settle_s=3.0), SERVO)
     (stroke, following) = [leg for leg in plan.legs if leg.kind == "slide"]
-    assert stroke.duration_s == pytest.approx(0.6 / 0.1 + 1.875 * 0.1)
+    assert stroke.duration_s == pytest.approx(0.6 / 0.1 + 1.875 * 0.1 + 0.2)
     assert stroke.speed_mps == 0.1
     assert following.duration_s == pytest.approx(0.34 / 0.17 + 2.0)
     assert plan.targets[0].dwell_s == 3.0
