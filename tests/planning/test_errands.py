@@ -89,7 +89,7 @@ def test_two_holds_at_one_place_are_joined_by_no_way():
 
 
 def test_times_of_a_stroke_and_a_following():
-    """ℓ/v + 15/8 v/a of a line from rest to rest and a pause; ℓ/v and the settling of a following."""
+    """ℓ/v + 15/8 v/a of a line from rest to rest, a pause; ℓ/v and a following's settling."""
     plan = planned(trace(speed_mps=0.1, settle_s=3.0), SERVO)
     (stroke, following) = [leg for leg in plan.legs if leg.kind == "slide"]
     assert stroke.duration_s == pytest.approx(0.6 / 0.1 + 1.875 * 0.1 + 0.2)
