@@ -118,12 +118,13 @@ class Flight:
             "imu": rates.imu_hz,
             "pose": pose_hz,
             "tof": rates.tof_hz,
-            "probe": rates.probe_hz,
             "mission": rates.mission_hz,
             "guidance": rates.guidance_hz,
             "control": rates.control_hz,
             "log": rates.log_hz,
         }
+        if any(target.sensor is not None for target in plan.targets):
+            due["probe"] = rates.probe_hz
         for surface in structure.surfaces:
             if surface.force_sensor is not None:
                 due["wall"] = surface.force_sensor.rate_hz

@@ -15,6 +15,7 @@ from tests.bench.rows import Row, as_json
 
 ROOT = Path(__file__).resolve().parents[2]
 MISSION = ROOT / "missions" / "nine_point_half_cell.yaml"
+VAULTS = ROOT / "missions" / "paper_a" / "servoing"
 SURVEY = ROOT / "missions" / "paper_a" / "vault_coverage.yaml"
 
 
@@ -25,7 +26,9 @@ def main() -> int:
     for measured in (
         fits.measure(),
         camera.measure(ROOT),
-        flights.measure(load_mission(MISSION)),
+        flights.measure(load_mission(MISSION), "flight"),
+        flights.measure(load_mission(VAULTS / "cylinder.yaml"), "vault"),
+        flights.measure(load_mission(VAULTS / "uneven.yaml"), "uneven_vault"),
         processes.measure(MISSION),
         surveys.measure(SURVEY),
     ):

@@ -29,6 +29,12 @@ from tests.bench.rows import Row
 
 PAIRS = 5
 STATE = mujoco.mjtState.mjSTATE_FULLPHYSICS
+CONTROL = (
+    mujoco.mjtState.mjSTATE_CTRL
+    | mujoco.mjtState.mjSTATE_MOCAP_POS
+    | mujoco.mjtState.mjSTATE_MOCAP_QUAT
+)
+"""What the plant sets between two steps: commands, and the plates under the tip."""
 
 
 @dataclass(frozen=True)
@@ -69,6 +75,7 @@ class Pair:
             self._data,
             self._start,
             self._controls,
+            control_spec=int(CONTROL),
             state=self._states,
             sensordata=self._sensors,
         )
@@ -80,7 +87,9 @@ class Pair:
         loaded = self._loaded
         seed = loaded.mission.seeds[0]
         structure = true_structure(loaded.truth, self._plan.surfaces, loaded.root)
-        return Flight(self._vehicle, self._plan, loaded.truth, structure, seed, log), log
+        estimation = loaded.mission.estimation
+        flight = Flight(self._vehicle, self._plan, loaded.truth, structure, seed, log, estimation)
+        return flight, log
 
     def _prepare_replay(self) -> None:
         """Fly once, which also compiles every kernel, and keep the controls of each step."""
@@ -89,7 +98,7 @@ class Pair:
         step = plant.step
 
         def remembering(steps: int) -> None:
-            told.append((plant.data.ctrl.copy(), steps))
+            told.append((control_of(plant.data), steps))
             step(steps)
 
         plant.step = remembering
@@ -106,14 +115,19 @@ class Pair:
         self._sensors = np.zeros((1, len(controls), plant.model.nsensordata))
 
 
-def measure(loaded: Loaded) -> Iterator[Row]:
+def control_of(data: mujoco.MjData) -> np.ndarray:
+    """The numbers of CONTROL, in MuJoCo's order."""
+    return np.concatenate([data.ctrl, data.mocap_pos.ravel(), data.mocap_quat.ravel()])
+
+
+def measure(loaded: Loaded, name: str) -> Iterator[Row]:
     """Medians over pairs of a flight and a replay."""
     with TemporaryDirectory() as folder:
         pair = Pair(loaded, Path(folder))
         pairs = [(pair.fly(), pair.replay_s()) for _ in range(PAIRS)]
     ratio = median(flown.wall_s / bare_s for flown, bare_s in pairs)
-    yield Row("flight.ratio_to_open_loop", ratio, "1", 2.5)
+    yield Row(f"{name}.ratio_to_open_loop", ratio, "1", 2.5)
     factor = median(flown.flight_s / flown.wall_s for flown, _ in pairs)
-    yield Row("flight.real_time_factor", factor, "1", 30.0, "min")
+    yield Row(f"{name}.real_time_factor", factor, "1", 30.0, "min")
     share = median(flown.log_s / flown.wall_s for flown, _ in pairs)
-    yield Row("log.share_of_flight", share, "1", 0.10)
+    yield Row(f"{name}.log_share", share, "1", 0.10)
