@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from inspect_cli.metrics.flight import TOUCH_N, Flight, NotMeasured, Rows, largest, mean
-from inspect_cli.records import TrueContact
+from inspect_cli.records import Mode, TrueContact
 from inspect_cli.schema.plan import Target
 from inspect_cli.spatial.arrays import Vector
 
@@ -52,6 +52,9 @@ def force_cv(flight: Flight) -> float:
 
     Each from 1 s after its first touch: of a point to the end of its dwell, of a stroke and of a
     surface that is followed to the release.
+
+    Raises:
+        NotMeasured: a stroke or a surface to follow was never touched, or no contact lasted.
     """
     ratios = [_variation(flight, _held(flight, target)) for target in flight.plan.targets]
     settled = [ratio for ratio in ratios if ratio is not None]
@@ -62,7 +65,7 @@ def force_cv(flight: Flight) -> float:
 
 def _held(flight: Flight, target: Target) -> Rows:
     if target.kind in SLID:
-        return flight.contact_rows(target.index)
+        return held_rows(flight, target)
     dwell = flight.dwells.get(target.index)
     return dwell.rows if dwell else np.empty(0, np.intp)
 
@@ -75,19 +78,47 @@ def _variation(flight: Flight, rows: Rows) -> float | None:
     return float(np.std(settled) / np.mean(settled))
 
 
+def held_rows(flight: Flight, target: Target) -> Rows:
+    """Rows from first touch to release of a target along which the tool slides.
+
+    Raises:
+        NotMeasured: it was never touched. Left out, it would make the others speak for it.
+    """
+    rows = flight.contact_rows(target.index)
+    if len(rows) == 0:
+        raise NotMeasured(f"target {target.label} was never touched")
+    return rows
+
+
 def bounce_gaps(flight: Flight) -> float:
-    """Number of gaps longer than 50 ms with less than 0.1 N between first touch and release."""
+    """Number of gaps longer than 50 ms with less than 0.1 N between first touch and release.
+
+    Raises:
+        NotMeasured: a stroke or a surface to follow was never touched.
+    """
+    for target in flight.contact_targets:
+        if target.kind in SLID:
+            held_rows(flight, target)
     return float(sum(gaps_of(flight, target) for target in flight.contact_targets))
 
 
 def gaps_of(flight: Flight, target: Target) -> int:
-    """Those of one target."""
+    """Those of one target.
+
+    The release is the last touch or the end of PRESS and SLIDE, whichever comes later: a contact
+    that is lost before the tool is asked to leave, and never found again, is a gap as well.
+    """
     rows = flight.contact_rows(target.index)
     touching = rows[flight.state["f_normal"][rows] >= TOUCH_N]
     times = flight.state["t_s"]
     tick_s = float(np.median(np.diff(times))) if len(times) > 1 else 0.0
+    asked = flight.in_modes(Mode.PRESS, Mode.SLIDE)
+    last = np.flatnonzero(asked & (flight.reference["target"] == target.index))[-1:]
+    ends_s = times[touching]
+    if len(ends_s) and len(last) and last[0] > touching[-1]:
+        ends_s = np.append(ends_s, times[last[0]] + tick_s)
     # The tool is off for the rows in between, which is one tick less than from touch to touch.
-    gaps_s = np.diff(times[touching]) - tick_s
+    gaps_s = np.diff(ends_s) - tick_s
     return int(np.sum(gaps_s > LONGEST_GAP_S + 1e-6))
 
 

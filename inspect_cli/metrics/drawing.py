@@ -25,6 +25,7 @@ from itertools import combinations
 
 import numpy as np
 
+from inspect_cli.metrics.contact import held_rows
 from inspect_cli.metrics.flight import Flight, NotMeasured, Rows, largest, root_mean_square
 from inspect_cli.metrics.geometry import attitude_angle
 from inspect_cli.records import Mode, TrueContact
@@ -155,7 +156,11 @@ def tracking_rms(flight: Flight) -> float:
 
 
 def attitude_error_max(flight: Flight) -> float:
-    """Largest angle between reference and true attitude from first touch to release, rad."""
-    touched = [flight.contact_rows(target.index) for target, _ in drawn_targets(flight)]
+    """Largest angle between reference and true attitude from first touch to release, rad.
+
+    Raises:
+        NotMeasured: there is no stroke, or one of them was never touched.
+    """
+    touched = [held_rows(flight, target) for target, _ in drawn_targets(flight)]
     rows = np.concatenate(touched)
     return largest(attitude_angle(flight.reference["q_WB"][rows], flight.state["q_WB"][rows]))

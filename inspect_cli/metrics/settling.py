@@ -21,8 +21,11 @@ def oscillation_growth(flight: Flight) -> float:
     1 s; of that the amplitude √2 · RMS in either half. The ratio is a₂ / max(a₁, 0.1 N): a force
     at rest and an oscillation that dies out have a ratio below 1, a steady one 1, a growing one
     more.
+
+    Raises:
+        NotMeasured: a planned contact was never pressed, or no dwell was long enough.
     """
-    ratios = [_growth(flight, dwell) for dwell in flight.dwells.values()]
+    ratios = [_growth(flight, dwell) for dwell in _planned_dwells(flight)]
     known = [ratio for ratio in ratios if ratio is not None]
     if not known:
         raise NotMeasured(f"no dwell lasted longer than {SETTLE_S + 2.0 * TREND_S:g} s")
@@ -30,12 +33,22 @@ def oscillation_growth(flight: Flight) -> float:
 
 
 def residual_variation(flight: Flight) -> float:
-    """Worst coefficient of variation (σ / mean) of the true normal force in a dwell's last 2 s."""
+    """Worst coefficient of variation (σ / mean) of the true normal force in a dwell's last 2 s.
+
+    Raises:
+        NotMeasured: a planned contact was never pressed.
+    """
     force = flight.state["f_normal"]
-    ratios = [np.std(force[d.steady]) / np.mean(force[d.steady]) for d in flight.dwells.values()]
-    if not ratios:
-        raise NotMeasured("no point was pressed")
-    return float(max(ratios))
+    dwells = _planned_dwells(flight)
+    return float(max(np.std(force[d.steady]) / np.mean(force[d.steady]) for d in dwells))
+
+
+def _planned_dwells(flight: Flight) -> list[Dwell]:
+    """The dwell of every contact; a contact that failed must not leave the word to the others."""
+    missed = [t.label for t in flight.contact_targets if t.index not in flight.dwells]
+    if missed:
+        raise NotMeasured(f"never pressed: {', '.join(missed)}")
+    return [flight.dwells[target.index] for target in flight.contact_targets]
 
 
 def _growth(flight: Flight, dwell: Dwell) -> float | None:

@@ -23,7 +23,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from inspect_cli.metrics.contact import gaps_of
+from inspect_cli.metrics.contact import gaps_of, held_rows
 from inspect_cli.metrics.drawing import along_surface, slide_rows
 from inspect_cli.metrics.flight import Flight, NotMeasured, Rows, largest, mean
 from inspect_cli.metrics.geometry import direction_angle, rotation_vectors, turned_by
@@ -166,9 +166,12 @@ def turned(flight: Flight, slide: Slide) -> Points:
 
 
 def gaps(flight: Flight) -> float:
-    """Gaps over 50 ms below 0.1 N between first touch and release of the slides."""
+    """Gaps over 50 ms below 0.1 N between first touch and release of the slides.
+
+    Raises:
+        NotMeasured: one of them was never touched.
+    """
     targets = followed_targets(flight)
-    touched = [target for target in targets if len(flight.contact_rows(target.index))]
-    if not touched:
-        raise NotMeasured("the tool never touched the surface that it should follow")
-    return float(sum(gaps_of(flight, target) for target in touched))
+    for target in targets:
+        held_rows(flight, target)
+    return float(sum(gaps_of(flight, target) for target in targets))

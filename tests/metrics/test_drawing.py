@@ -106,3 +106,28 @@ def test_the_force_of_a_stroke_counts_to_its_release() -> None:
     slid = moving(flight, 0)
     force[slid[: len(slid) // 2]] = 4.0
     assert value(flight, "contact.force_cv") > 0.3
+
+
+def test_at_rest_two_trials_are_compared_moment_by_moment() -> None:
+    """Both tips creep alike while their reference rests: the same drawing."""
+    flight = strokes()
+    creep = np.minimum(np.arange(len(rows_of(flight, 0, Mode.SLIDE))) / HZ, 1.0)[:, None]
+    for target in (0, 1):
+        shift(flight, target, creep * [0.0, 0.0, 0.02])
+    assert value(flight, "drawing.repeat_rms_m") < 1e-9
+
+
+def test_a_stroke_that_loses_the_board_for_good_has_a_gap() -> None:
+    flight = strokes()
+    assert value(flight, "contact.bounce_gaps") == 0.0
+    after = np.arange(moving(flight, 1)[len(moving(flight, 1)) // 2], touched(flight, 1)[-1] + 1)
+    flight.rows(State)["f_normal"][after] = 0.05
+    assert value(flight, "contact.bounce_gaps") == 1.0
+
+
+def test_a_trial_in_the_air_is_no_drawing() -> None:
+    flight = strokes()
+    flight.rows(State)["f_normal"][touched(flight, 1)] = 0.0
+    for name in ("contact.force_cv", "contact.bounce_gaps", "drawing.attitude_error_max_rad"):
+        assert metric(flight, name).value is None
+        assert metric(flight, name).why == "target 2 was never touched"

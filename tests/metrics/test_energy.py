@@ -46,6 +46,17 @@ def test_idle_rotors_take_nothing_but_the_avionics(flight: SyntheticFlight) -> N
     assert evaluate(flight.log()).metrics["flight.energy_wh_flown"].value == whole
 
 
+def test_the_safe_hover_after_an_abort_takes_energy(flight: SyntheticFlight) -> None:
+    mode = flight.rows(Reference)["mode"]
+    whole = evaluate(flight.log()).metrics["flight.energy_wh_flown"].value
+    flying = np.flatnonzero((mode >= Mode.TAKEOFF) & (mode <= Mode.LAND))
+    mode[flying[len(flying) // 2] :] = Mode.HOVER
+    hovering_s = np.ptp(flight.rows(Reference)["t_s"][flying[0] :])
+    aborted = evaluate(flight.log()).metrics["flight.energy_wh_flown"].value
+    assert aborted == pytest.approx(575.43 * hovering_s / 3600.0, rel=1e-4)
+    assert aborted >= whole
+
+
 def test_both_power_models_agree_in_level_hover(root) -> None:
     """The drive's efficiency was chosen so; the other attitudes follow, both being T^1.5."""
     loaded = load_mission(root / "missions" / "nine_point_half_cell.yaml")

@@ -247,6 +247,14 @@ def test_gaps_longer_than_50_ms_are_bounces(
     assert value(flight, "contact.bounce_gaps") == gaps
 
 
+def test_a_point_that_is_lost_before_its_press_ends_has_a_gap(flight: SyntheticFlight) -> None:
+    rows = flight.rows(Reference)
+    off = (rows["target"] == 2) & (rows["mode"] >= Mode.PRESS)
+    off[: flight.pressing(2)[-100]] = False
+    flight.rows(State)["f_normal"][off] = 0.0
+    assert value(flight, "contact.bounce_gaps") == 1
+
+
 def test_a_bounce_on_release_counts(flight: SyntheticFlight) -> None:
     state, reference = flight.rows(State), flight.rows(Reference)
     retreat = np.flatnonzero((reference["mode"] == Mode.RETREAT) & (reference["target"] == 2))

@@ -209,3 +209,36 @@ def test_residual_variation_is_that_of_the_last_two_seconds(flight: SyntheticFli
     wave = 5.0 + np.where(np.arange(460) < 240, 2.0, 0.1) * (-1.0) ** np.arange(460)
     dwell_force(flight, wave)
     assert value(flight, "contact.residual_cv") == pytest.approx(0.02, rel=0.01)
+
+
+def test_a_contact_that_never_came_leaves_no_verdict_to_the_others(flight: SyntheticFlight) -> None:
+    flight.rows(State)["f_normal"][flight.pressing(4)] = 0.0
+    retreat = flight.rows(Reference)["target"] == 4
+    flight.rows(State)["f_normal"][retreat] = 0.0
+    for name in ("contact.oscillation_growth", "contact.residual_cv"):
+        metric = evaluate(flight.log()).metrics[name]
+        assert metric.value is None
+        assert metric.why == "never pressed: wall 5"
+
+
+def test_in_contact_means_in_contact(flight: SyntheticFlight) -> None:
+    """The observer is off by 1 N more, and 0.1 N·m more, wherever the tool does not touch."""
+    sensed(flight)
+    free = flight.rows(State)["f_normal"] <= 0.1
+    flight.rows(Estimate)["wrench_B"][free, 0] += 1.0
+    flight.rows(Estimate)["wrench_B"][free, 3] += 0.1
+    assert value(flight, "force_sensor.contact_rmse_fx_n") == pytest.approx(0.3, abs=1e-6)
+    assert value(flight, "force_sensor.contact_rmse_tx_nm") == pytest.approx(0.0, abs=1e-6)
+    assert value(flight, "force_sensor.rmse_fx_n") > 0.5
+    assert value(flight, "force_sensor.rmse_tx_nm") > 0.05
+
+
+def test_samples_are_dated_by_the_last_of_their_block(flight: SyntheticFlight) -> None:
+    """20 N at 0.5 Hz rise by up to 63 N/s: one sample late would add 0.056 N RMS to the 0.3 N."""
+    sensed(flight)
+    rows = flight.channels[WallForce.topic]
+    times = rows["t_s"][:, None] - np.arange(79, -1, -1) / RATE
+    # z_S is −x_W and the vehicle feels the opposite: along x_W it is pushed by what f_S has on z.
+    rows["f_S"][:, :, 2] += 20.0 * np.sin(np.pi * times)
+    flight.rows(Estimate)["wrench_B"][:, 0] += 20.0 * np.sin(np.pi * flight.rows(State)["t_s"])
+    assert value(flight, "force_sensor.rmse_fx_n") == pytest.approx(0.3, abs=1e-3)

@@ -97,3 +97,13 @@ def test_what_did_not_slide_is_not_measured() -> None:
     assert "did not move along" in metric(flight, "distance_m").why
     flight.rows(State)["f_normal"] = 0.0
     assert "never touched" in metric(flight, "gaps").why
+
+
+@pytest.mark.parametrize(("rows_off", "gaps"), [(5, 0.0), (6, 1.0), (200, 1.0)])
+def test_contact_that_is_lost_until_the_end_of_the_slide_is_a_gap(
+    rows_off: int, gaps: float
+) -> None:
+    flight = following()
+    last = rows_of(flight, 0, Mode.SLIDE)[-1]
+    flight.rows(State)["f_normal"][last + 1 - rows_off :] = 0.0
+    assert value(flight, "gaps") == gaps

@@ -10,7 +10,7 @@ from scipy.spatial.transform import Rotation
 from scipy.stats import chi2
 
 from inspect_cli.estimation.error_state import ErrorStateFilter
-from inspect_cli.records import Estimate, Imu, State
+from inspect_cli.records import Estimate, Imu, Odometry, State
 from inspect_cli.schema.positioning import OdometryModel
 from inspect_cli.schema.vehicle import ImuModel
 from inspect_cli.sensing.odometry import OdometrySensor
@@ -109,6 +109,16 @@ def test_yaw_walks_with_distance_and_bends_the_path() -> None:
     np.testing.assert_allclose(found[[2, 3, 4]], 0.0, atol=1e-12)
 
 
+def test_the_path_bends_to_the_side_that_the_attitude_is_off_to() -> None:
+    """Of the same Wiener process, E[ψ(x) ∫ψ] = σ² x² / 2: with its integral ψ correlates by √3/2.
+
+    The estimated correlation of 400 pairs has a standard deviation of (1 − 3/4) / 20 = 0.013.
+    """
+    runs = np.array([errors(along_x(1.0), 2.0, k, yaw_walk_moved=0.01) for k in range(RUNS)])
+    correlation = np.corrcoef(runs[:, 5], runs[:, 1])[0, 1]
+    assert correlation == pytest.approx(np.sqrt(0.75), abs=0.05)
+
+
 def test_yaw_walks_with_the_angle_turned() -> None:
     found = spread(turning(0.5), 4.0, yaw_walk_turned=0.01)
     assert found[5] == pytest.approx(0.01 * np.sqrt(2.0), rel=BAND)
@@ -194,6 +204,30 @@ def test_the_filter_takes_every_pose_and_is_consistent_with_the_drifting_frame()
     low, high = chi2.interval(0.999, 3 * len(runs))
     assert low < ratio < high
     assert true > 10.0 * high
+
+
+def test_the_filter_knows_by_its_gyroscopes_that_the_frame_turns_away() -> None:
+    """A pose that is no number corrects nothing, but the frame has drifted until then."""
+    variances = []
+    for walk in (0.0, 0.01):
+        model = OdometryModel(**{**QUIET, "yaw_walk_turned": walk})
+        filter_, estimate, pose, imu = ErrorStateFilter(IMU, model, 250, 30), *_first()
+        filter_.start(pose, estimate)
+        for k in range(26):
+            imu.t_s = k / 250.0
+            filter_.propagate(imu, estimate)
+        pose.t_s, pose.p_WB = 0.1, np.nan
+        assert not filter_.correct(pose, estimate)
+        variances.append(filter_.covariance[8, 8])
+    assert variances[1] - variances[0] == pytest.approx(0.01**2 * 0.5 * 0.1, rel=1e-6)
+
+
+def _first() -> tuple[Estimate, Odometry, Imu]:
+    """Level at rest, then turning by 0.5 rad/s about the vertical."""
+    pose, imu = Odometry.create(), Imu.create()
+    pose.q_WB[0] = 1.0
+    imu.f_B, imu.w_B = [0.0, 0.0, 9.81], [0.0, 0.0, 0.5]
+    return Estimate.create(), pose, imu
 
 
 def test_the_filter_gives_up_after_as_long_a_time_as_with_a_tracker() -> None:
