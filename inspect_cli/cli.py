@@ -217,6 +217,41 @@ def regress(
 
 
 @app.command()
+def study(
+    name: Annotated[str, typer.Argument(metavar="NAME", help="Which study: force.")],
+    mission: Mission,
+    gains: Annotated[
+        str | None, typer.Option(metavar="K,K,…", help="force: observer gains K_I, 1/s.")
+    ] = None,
+    speeds: Annotated[
+        str | None, typer.Option(metavar="V,V,…", help="force: speeds of the approach, m/s.")
+    ] = None,
+    out: Out = None,
+    seed: Annotated[
+        int | None, typer.Option(min=0, help="Of the noise; by default the mission's first.")
+    ] = None,
+    jobs: Annotated[int, typer.Option(min=1, help="Flights at a time.")] = 1,
+    as_json: Json = False,
+) -> int:
+    """Fly a mission with varied numbers; show what they do to its metrics."""
+    from inspect_cli import terminal
+    from inspect_cli.commands.study import study as command
+
+    asked = {k: v for k, v in {"gains": gains, "speeds": speeds}.items() if v is not None}
+    with _stdout_kept_clean():
+        terminal.announce_compilation(shown=not as_json)
+        with terminal.regression_progress(shown=not as_json) as progress:
+            outcome = command(
+                name, mission, asked=asked, out=out, seed=seed, jobs=jobs, progress=progress
+            )
+    if as_json:
+        sys.stdout.write(outcome.result.model_dump_json(by_alias=True) + "\n")
+    else:
+        terminal.print_study(outcome.result, outcome.page)
+    return outcome.exit_code
+
+
+@app.command()
 def doctor(as_json: Json = False) -> int:
     """Check this installation and say how to mend what fails."""
     from inspect_cli.commands.doctor import doctor as command

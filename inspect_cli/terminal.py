@@ -31,6 +31,7 @@ if TYPE_CHECKING:
     from inspect_cli.schema.coverage import CoveragePlan
     from inspect_cli.schema.plan import Plan
     from inspect_cli.schema.result import Check, PointResult, Result
+    from inspect_cli.schema.study import StudyResult
 
 GOOD, BAD, UNSURE = "green", "bold red", "yellow"
 STYLES = {
@@ -218,6 +219,25 @@ def print_regression(report: RegressReport, updated: Sequence[Path]) -> None:
     out.print(f"{report.passed} passed, {report.failed} failed, {report.known} known failures")
 
 
+def print_study(study: StudyResult, page: Path) -> None:
+    """Each variant's numbers, the published ones below them, and what went wrong."""
+    out = console()
+    quantities = (f"{q.symbol}\n/{q.unit}" for q in study.quantities)
+    heads = (f"{c.heading}\n/{c.unit}".removesuffix("/1") for c in study.columns)
+    table = _table(study.title, "variant", *quantities, *(h.replace(", ", "\n") for h in heads))
+    for variant in study.variants:
+        values = (f"{variant.values[q.name]:g}" for q in study.quantities)
+        numbers = (_number(variant.value(c.metric), ".3g") for c in study.columns)
+        table.add_row(variant.name, *values, *numbers)
+    if any(c.published is not None for c in study.columns):
+        blank = ("" for _ in study.quantities)
+        table.add_row("published", *blank, *(_number(c.published, ".3g") for c in study.columns))
+    out.print(table)
+    for reason in study.shortfalls:
+        out.print(Text.assemble(("not as expected: ", BAD), reason), soft_wrap=True)
+    out.print(f"study: {_near(page)}", soft_wrap=True)
+
+
 def print_diagnosis(diagnosis: Diagnosis) -> None:
     """What was examined, what was found, and how to mend what fails."""
     out = console()
@@ -255,8 +275,8 @@ def regression_progress(*, shown: bool) -> Iterator[Callable[[int, int, FlightEn
         def advance(done: int, total: int, end: FlightEnd) -> None:
             bar.update(task, total=total, completed=done)
             if shown and bar.disable:
-                name = f"{end.task.mission_file.stem} seed {end.task.seed}"
-                bar.console.print(f"{done}/{total} {name}, {end.wall_s:.1f} s", soft_wrap=True)
+                text = f"{done}/{total} {end.task.name}, {end.wall_s:.1f} s"
+                bar.console.print(text, soft_wrap=True)
 
         yield advance
 

@@ -46,6 +46,18 @@ def fly(
     the planned duration, s. Raises InputError before anything is written.
     """
     loaded, plan = _load(mission, platform)
+    return fly_loaded(loaded, plan, seed=seed, out=out, progress=progress)
+
+
+def fly_loaded(
+    loaded: Loaded,
+    plan: Plan | CoveragePlan | None = None,
+    *,
+    seed: int | None = None,
+    out: Path | None = None,
+    progress: Progress | None = None,
+) -> FlyOutcome:
+    """``fly`` for a mission that is already read, and planned too where a ``plan`` is given."""
     vehicle = vehicle_of(loaded)
     plan = plan or plan_loaded(loaded, vehicle)
     seed = loaded.mission.seeds[0] if seed is None else seed

@@ -73,11 +73,17 @@ def low_pass(samples: Points, rate_hz: float) -> Points:
 
 def force_errors(flight: Flight) -> Points:
     """Estimated less measured force on the vehicle in W, (n, 3) N, on the ticks of the state."""
-    measured = signal(flight)
     estimate = flight.on_state_ticks(Estimate)
     estimated = turned_by(estimate["q_WB"], estimate["wrench_B"][:, :3])
-    errors: Points = estimated + _on_ticks(flight, measured)[:, :3] @ measured.R_WS.T
+    errors: Points = estimated - measured_force(flight)
     return errors
+
+
+def measured_force(flight: Flight) -> Points:
+    """Filtered force of the surface on the vehicle in W, (n, 3) N, on the ticks of the state."""
+    measured = signal(flight)
+    force: Points = -(_on_ticks(flight, measured)[:, :3] @ measured.R_WS.T)
+    return force
 
 
 def torque_errors(flight: Flight) -> Points:

@@ -58,6 +58,13 @@ class FlightTask:
     mission_file: Path
     seed: int
     out: Path | None = None
+    label: str = ""
+    """Instead of the mission's file, where several tasks share it."""
+
+    @property
+    def name(self) -> str:
+        """What it is called while it is flown."""
+        return self.label or f"{self.mission_file.stem} seed {self.seed}"
 
 
 @dataclass(frozen=True)

@@ -1,0 +1,167 @@
+"""What a study is made of: quantities to vary, one at a time, and the missions that come of it.
+
+Missions and platforms are varied in memory: a copy of the loaded model with other numbers, which
+is validated like a file. No file is read or written for it.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, replace
+from typing import TypeVar
+
+from pydantic import BaseModel, ValidationError
+
+from inspect_cli.errors import InputError
+from inspect_cli.metrics.spec import MetricSpec
+from inspect_cli.reporting.figure import Figure
+from inspect_cli.schema.loading import Loaded
+from inspect_cli.schema.study import Quantity, StudyColumn, StudyResult
+
+Model = TypeVar("Model", bound=BaseModel)
+
+
+@dataclass(frozen=True)
+class Factor:
+    """A quantity that a study varies."""
+
+    option: str
+    """What its values are called at the command line, without the dashes."""
+    name: str
+    """What one value is called, in names of folders too."""
+    symbol: str
+    unit: str
+    values: tuple[float, ...]
+    """Unless others are asked for."""
+    base: Callable[[Loaded], float]
+    """What a mission and its platform say."""
+    changed: Callable[[Loaded, float], Loaded]
+    """The same mission with another value.
+
+    Raises:
+        ValueError: the value cannot be had; pydantic's ValidationError is one.
+    """
+
+    def quantity(self, loaded: Loaded) -> Quantity:
+        """The quantity of a mission that is varied."""
+        return Quantity(name=self.name, symbol=self.symbol, unit=self.unit, base=self.base(loaded))
+
+
+@dataclass(frozen=True)
+class Study:
+    """What is varied, what is shown of it, and one figure."""
+
+    title: str
+    explained: str
+    """What is varied and against what it is held, in sentences for the page."""
+    factors: tuple[Factor, ...]
+    columns: tuple[StudyColumn, ...]
+    """Metrics of the catalogue, and those of ``own``."""
+    refuse: Callable[[Loaded], None]
+    """Raises InputError for a mission that cannot be studied so."""
+    own: Mapping[str, MetricSpec]
+    """Numbers beyond the catalogue, by name."""
+    figure: Callable[[StudyResult], Figure]
+
+
+@dataclass(frozen=True)
+class Variant:
+    """The mission with one choice of the varied quantities."""
+
+    name: str
+    values: dict[str, float]
+    loaded: Loaded
+
+
+def variants(
+    name: str, study: Study, loaded: Loaded, asked: Mapping[str, Sequence[float]]
+) -> list[Variant]:
+    """Every factor varied by itself, the others held at what the mission says.
+
+    A choice that two sweeps share comes once. ``asked`` holds values by option.
+
+    Raises:
+        InputError: an option that the study has not, or a value that cannot be had.
+    """
+    options = [factor.option for factor in study.factors]
+    for option in asked:
+        if option not in options:
+            hint = f"choices: {', '.join(f'--{known}' for known in options)}"
+            raise InputError(f"the study '{name}' does not vary --{option}", hint=hint)
+    base = {factor.name: factor.base(loaded) for factor in study.factors}
+    chosen = [
+        base | {factor.name: value}
+        for factor in study.factors
+        for value in asked.get(factor.option, factor.values)
+    ]
+    unique = {_named(study, values): values for values in chosen}
+    return [
+        Variant(label, values, _varied(name, study, loaded, values))
+        for label, values in unique.items()
+    ]
+
+
+def numbers_of(option: str, text: str) -> tuple[float, ...]:
+    """The numbers of an option's text, separated by commas.
+
+    Raises:
+        InputError: a part is no finite number.
+    """
+    return tuple(_number(option, part.strip()) for part in text.split(","))
+
+
+def revalidated(model: Model, **changes: object) -> Model:
+    """A copy with other entries, checked as if it had been read.
+
+    Raises:
+        ValidationError: an entry breaks the schema.
+    """
+    # By way of JSON, because a strict model takes no other form of everything it writes.
+    changed = model.model_copy(update=changes)
+    return type(model).model_validate_json(changed.model_dump_json(by_alias=True))
+
+
+def _number(option: str, text: str) -> float:
+    try:
+        value = float(text)
+    except ValueError:
+        value = math.nan
+    if not math.isfinite(value):
+        hint = f"write numbers with commas between them: --{option} 0.5,1,2"
+        raise InputError(f"--{option}: '{text}' is not a finite number", hint=hint)
+    return value
+
+
+def _named(study: Study, values: Mapping[str, float]) -> str:
+    return "-".join(f"{f.name}-{shortest(values[f.name])}" for f in study.factors)
+
+
+def shortest(value: float) -> str:
+    """A number in few digits, all of them where that would make two alike."""
+    short = f"{value:g}"
+    return short if float(short) == value else repr(value)
+
+
+def _varied(name: str, study: Study, loaded: Loaded, values: Mapping[str, float]) -> Loaded:
+    told = []
+    changed = loaded
+    for factor in study.factors:
+        value = values[factor.name]
+        try:
+            changed = factor.changed(changed, value)
+        except ValueError as error:
+            what = f"--{factor.option}: {shortest(value)} {factor.unit} cannot be had"
+            raise InputError(what, hint=_reason(error)) from error
+        told.append(f"{factor.symbol} = {shortest(value)} {factor.unit}")
+    choice = ", ".join(told)
+    mission = changed.mission
+    title = f"{mission.title or mission.name} ({choice})"
+    words = f"A variant of the mission in the study “{name}”: {choice}, all else as it stands."
+    return replace(changed, mission=revalidated(mission, title=title, description=words))
+
+
+def _reason(error: ValueError) -> str:
+    if isinstance(error, ValidationError):
+        return error.errors(include_url=False)[0]["msg"]
+    return str(error)

@@ -1,0 +1,158 @@
+"""Figures of studies: metrics against each quantity that was varied."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+
+from inspect_cli.reporting.figure import Figure, Json
+from inspect_cli.reporting.palette import BLUE, GREEN, INK, ORANGE
+from inspect_cli.reporting.published import SOURCE, TABLE_IV
+from inspect_cli.schema.study import Quantity, StudyResult
+
+PREDICTED = "study.lag_contact_rmse_fx_n"
+"""What the observer's lag alone would err by; the study ``force`` computes it."""
+GAP = 0.09
+"""Between panels, as a share of the figure."""
+MARGIN = 1.15
+"""Room beyond the outermost values of a logarithmic axis."""
+
+
+@dataclass(frozen=True)
+class Curve:
+    """A metric as it is drawn in every panel of a row."""
+
+    metric: str
+    label: str
+    colour: str
+    symbol: str
+    dash: str = "solid"
+
+
+@dataclass(frozen=True)
+class Level:
+    """A value that a row's curves are held against."""
+
+    value: float
+    label: str
+    dash: str = "dash"
+
+
+@dataclass(frozen=True)
+class Row:
+    """Panels with one vertical axis, one for each quantity."""
+
+    heading: str
+    curves: tuple[Curve, ...]
+    level: Level
+    share: float
+    """Of the figure's height."""
+
+
+def force_figure(study: StudyResult) -> Figure:
+    """RMS error along the contact's direction, flown and predicted, and whether it stays calm."""
+    whole = "force_sensor.rmse_fx_n"
+    published = TABLE_IV[whole][1]
+    errors = Row(
+        "RMSE of f<sub>x</sub> (N)",
+        (
+            Curve("force_sensor.contact_rmse_fx_n", "flown, in contact", BLUE, "circle"),
+            Curve(PREDICTED, "predicted by the lag, in contact", ORANGE, "x-thin-open", "dash"),
+            Curve(whole, "flown, whole flight", GREEN, "square", "dot"),
+        ),
+        Level(published, f"published, {published:g} N"),
+        0.62,
+    )
+    calm = Row(
+        "oscillation growth",
+        (Curve("contact.oscillation_growth", "oscillation growth", INK, "diamond"),),
+        Level(1.0, "neither grows nor dies out", "dot"),
+        0.38,
+    )
+    return Figure(
+        "force-sweep",
+        "Error of the estimated force along the contact's direction against the observer's gain "
+        "K_I and against the speed v of the reference, the other held at what the mission says. "
+        "Predicted is what a first-order lag alone errs by, given the measured force. "
+        f"Published: {SOURCE}, Table IV. Below, the oscillation of the true force in the second "
+        "half of a dwell over that in the first; below 1 it dies out.",
+        "Force errors and growth of oscillations against observer gain and reference speed.",
+        *sweep_panels(study, (errors, calm)),
+        560,
+    )
+
+
+def sweep_panels(study: StudyResult, rows: Sequence[Row]) -> tuple[list[Json], Json]:
+    """Traces and layout: a column for each quantity, with a logarithmic axis, a row each."""
+    traces: list[Json] = []
+    layout: Json = {"hovermode": "closest"}
+    height = (1.0 - GAP * (len(rows) - 1)) / sum(row.share for row in rows)
+    top = 1.0
+    for i, row in enumerate(rows):
+        bottom = max(top - row.share * height, 0.0)
+        for j, quantity in enumerate(study.quantities):
+            n = i * len(study.quantities) + j + 1
+            traces += _panel(study, quantity, row, n, legend=j == 0)
+            x_axis = _x_axis(study, quantity, j) | {"anchor": f"y{n}", "matches": f"x{j + 1}"}
+            if i < len(rows) - 1:
+                x_axis |= {"title": {}, "showticklabels": False}
+            layout[f"xaxis{n}"] = {k: v for k, v in x_axis.items() if i or k != "matches"}
+            layout[f"yaxis{n}"] = {
+                "domain": [bottom, top],
+                "anchor": f"x{n}",
+                "rangemode": "tozero",
+                "title": {"text": row.heading if j == 0 else ""},
+                **({"matches": f"y{n - j}"} if j else {}),
+            }
+        top = bottom - GAP
+    return traces, layout
+
+
+def _panel(
+    study: StudyResult, quantity: Quantity, row: Row, n: int, *, legend: bool
+) -> Iterator[Json]:
+    variants = study.sweep(quantity)
+    x = [variant.values[quantity.name] for variant in variants]
+    axes: Json = {"type": "scatter", "xaxis": f"x{n}", "yaxis": f"y{n}", "showlegend": legend}
+    for curve in row.curves:
+        yield axes | {
+            "mode": "lines+markers",
+            "name": curve.label,
+            "legendgroup": curve.label,
+            "x": x,
+            "y": [variant.value(curve.metric) for variant in variants],
+            "line": {"color": curve.colour, "dash": curve.dash, "width": 1.6},
+            "marker": {
+                "symbol": curve.symbol,
+                "size": 9,
+                "color": curve.colour,
+                "line": {"width": 2, "color": curve.colour},
+            },
+            "hovertemplate": f"%{{x:g}} {quantity.unit}: %{{y:.3g}}<extra>{curve.label}</extra>",
+        }
+    if x:
+        yield axes | {
+            "mode": "lines",
+            "name": row.level.label,
+            "legendgroup": row.level.label,
+            "x": [x[0] / MARGIN, x[-1] * MARGIN],
+            "y": [row.level.value] * 2,
+            "line": {"color": INK, "dash": row.level.dash, "width": 1.2},
+            "hoverinfo": "skip",
+        }
+
+
+def _x_axis(study: StudyResult, quantity: Quantity, column: int) -> Json:
+    count = len(study.quantities)
+    width = (1.0 - GAP * (count - 1)) / count
+    start = column * (width + GAP)
+    x = [variant.values[quantity.name] for variant in study.sweep(quantity)]
+    symbol, _, index = quantity.symbol.partition("_")
+    shown = f"{symbol}<sub>{index}</sub>" if index else symbol
+    return {
+        "domain": [start, min(start + width, 1.0)],
+        "type": "log",
+        "tickvals": x,
+        "ticktext": [f"{value:g}" for value in x],
+        "title": {"text": f"{shown} ({quantity.unit})"},
+    }

@@ -1,0 +1,94 @@
+"""``study.json``: what came out of one mission that was flown with varied numbers."""
+
+from __future__ import annotations
+
+from typing import Annotated, Literal
+
+from pydantic import Field
+
+from inspect_cli.schema.base import Name, Strict
+from inspect_cli.schema.result import Metric, Status
+
+
+class Quantity(Strict):
+    """A number that a study varies."""
+
+    name: Name
+    symbol: str
+    unit: str
+    base: float
+    """What the mission and its platform say: held while the other quantities are varied."""
+
+    @property
+    def heading(self) -> str:
+        """The symbol with its unit, as a table's head."""
+        return f"{self.symbol} /{self.unit}"
+
+
+class StudyColumn(Strict):
+    """A metric that a study shows of every variant."""
+
+    metric: str
+    heading: str
+    unit: str
+    published: float | None = None
+    """The number that a publication reports, for the mission as it stands."""
+
+
+class StudyVariant(Strict):
+    """The mission with one choice of the varied quantities, and what its flight came to."""
+
+    name: Name
+    folder: str
+    """Of its run, relative to the study's file."""
+    values: dict[Name, float]
+    status: Status | Literal["not flown"]
+    status_reason: str = ""
+    failed_checks: tuple[str, ...] = ()
+    """Metrics of the mission's acceptance that the variant misses: told, not held against it."""
+    metrics: dict[str, Metric]
+    """Those that the study shows."""
+
+    def value(self, metric: str) -> float | None:
+        """A metric's value; None where there is none."""
+        found = self.metrics.get(metric)
+        return found.value if found else None
+
+
+class StudyResult(Strict):
+    """The whole of ``study.json``."""
+
+    schema_version: Annotated[Literal[1], Field(alias="schema")] = 1
+    study: Name
+    title: str
+    mission: str
+    platform: str
+    seed: int
+    expect_status: Status
+    """How the mission's flights have to end."""
+    quantities: Annotated[tuple[Quantity, ...], Field(min_length=1)]
+    columns: tuple[StudyColumn, ...]
+    variants: Annotated[tuple[StudyVariant, ...], Field(min_length=1)]
+
+    def sweep(self, quantity: Quantity) -> tuple[StudyVariant, ...]:
+        """The variants that differ from the mission in this quantity alone, by its value."""
+        others = {q.name: q.base for q in self.quantities if q is not quantity}
+        alone = [
+            variant
+            for variant in self.variants
+            if all(variant.values[name] == base for name, base in others.items())
+        ]
+        return tuple(sorted(alone, key=lambda variant: variant.values[quantity.name]))
+
+    @property
+    def shortfalls(self) -> tuple[str, ...]:
+        """The variants that ended otherwise or lack a number, each with the reason."""
+        return tuple(
+            f"{variant.name}: {why}" for variant in self.variants if (why := self._short(variant))
+        )
+
+    def _short(self, variant: StudyVariant) -> str:
+        if variant.status != self.expect_status:
+            return ": ".join(filter(None, (variant.status, variant.status_reason)))
+        missing = (c.metric for c in self.columns if variant.value(c.metric) is None)
+        return ", ".join(f"{m}: {variant.metrics[m].why}" for m in missing)
