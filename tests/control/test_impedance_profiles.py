@@ -5,7 +5,13 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from inspect_cli.control.impedance import BLEND_S, Impedance, ImpedanceController, RigidBody
+from inspect_cli.control.impedance import (
+    BLEND_S,
+    Impedance,
+    ImpedanceController,
+    RigidBody,
+    steady_press_force,
+)
 from inspect_cli.records import Command, Estimate, Reference
 from inspect_cli.schema.vehicle import ControlModel, ImpedanceProfile
 
@@ -135,3 +141,10 @@ def test_between_two_profiles_the_apparent_mass_stays_positive(share: float) -> 
         assert np.linalg.eigvalsh(inverse_mass).min() >= 0.2 - 1e-12
     assert (mixed.stiffness > 0.0).all()
     assert (mixed.damping > 0.0).all()
+
+
+def test_a_press_has_the_stiffness_of_its_own_profile() -> None:
+    """A level tool along x_B: K̃ of the profile times its apparent mass there times the depth."""
+    level = tool_at(90.0)
+    assert steady_press_force(MODEL, SOFT, level, 0.1) == pytest.approx(0.25 * 72.0 * 0.1)
+    assert steady_press_force(MODEL, STIFF, level, 0.1) == pytest.approx(1.0 * 144.0 * 0.1)

@@ -7,6 +7,7 @@ from collections.abc import Callable
 from pathlib import Path
 
 import pytest
+import yaml
 from example_flights import Flight
 from report_pages import Reported
 
@@ -39,11 +40,27 @@ def test_a_number_answers_a_row_or_one_of_its_metrics() -> None:
     assert number_of("A9.force", "force_sensor.rmse_fy_n") == "0.91 N"
     assert number_of("A7.slide", "slide.speed_mean_mps") == "0.17 m/s"
     assert number_of("A7.slide", "slide.gaps") == ""
+    assert number_of("A5.yaw", "pull.yaw_max_rad") == "0.5 rad"
     assert number_of(None, "slide.speed_mean_mps") == ""
     assert published_of("Z1") is None
     row = PUBLISHED["A9.force"]
     assert row.cited("force_sensor.rmse_fy_n") == "0.91 N (§\u00a0V-F, Table IV)"
     assert row.cited("contact.force_peak_n").startswith(row.words)
+
+
+def test_a_number_has_the_unit_of_the_metric_beside_it(root: Path) -> None:
+    """0.5 rad of yaw are not beside the torque under which they were measured."""
+    seen = 0
+    for file in sorted((root / "missions").rglob("*.yaml")):
+        for entry in yaml.safe_load(file.read_text()).get("acceptance", []):
+            short = number_of(entry.get("ref"), entry["metric"])
+            found = re.fullmatch(r"[<≤] ?[0-9.]+ (\S+)|[0-9.]+ (\S+)", short)
+            if found and "over" not in entry:
+                unit = found[1] or found[2]
+                assert unit == METRICS[entry["metric"]].unit, (file.name, entry["metric"])
+                seen += 1
+    assert seen > 20
+    assert number_of("A8.force", "contact.force_peak_n") == ""
 
 
 @pytest.mark.parametrize("ref", ["A8.force", None])
