@@ -86,30 +86,34 @@ def sweep_panels(study: StudyResult, rows: Sequence[Row]) -> tuple[list[Json], J
     """Traces and layout: a column for each quantity, with a logarithmic axis, a row each."""
     traces: list[Json] = []
     layout: Json = {"hovermode": "closest"}
+    columns = len(study.quantities)
     height = (1.0 - GAP * (len(rows) - 1)) / sum(row.share for row in rows)
     top = 1.0
     for i, row in enumerate(rows):
         bottom = max(top - row.share * height, 0.0)
+        first = _number(i * columns)
         for j, quantity in enumerate(study.quantities):
-            n = i * len(study.quantities) + j + 1
+            n = _number(i * columns + j)
             traces += _panel(study, quantity, row, n, legend=j == 0)
-            x_axis = _x_axis(study, quantity, j) | {"anchor": f"y{n}", "matches": f"x{j + 1}"}
+            x_axis = _x_axis(study, quantity, j) | {"anchor": f"y{n}"}
+            if i > 0:
+                x_axis["matches"] = f"x{_number(j)}"
             if i < len(rows) - 1:
-                x_axis |= {"title": {}, "showticklabels": False}
-            layout[f"xaxis{n}"] = {k: v for k, v in x_axis.items() if i or k != "matches"}
-            layout[f"yaxis{n}"] = {
-                "domain": [bottom, top],
-                "anchor": f"x{n}",
-                "rangemode": "tozero",
-                "title": {"text": row.heading if j == 0 else ""},
-                **({"matches": f"y{n - j}"} if j else {}),
-            }
+                x_axis |= {"title": {"text": ""}, "showticklabels": False}
+            y_axis: Json = {"domain": [bottom, top], "anchor": f"x{n}", "rangemode": "tozero"}
+            of_row = {"matches": f"y{first}"} if j else {"title": {"text": row.heading}}
+            layout[f"xaxis{n}"], layout[f"yaxis{n}"] = x_axis, y_axis | of_row
         top = bottom - GAP
     return traces, layout
 
 
+def _number(panel: int) -> str:
+    """What plotly appends to the names of a panel's axes: nothing for the first."""
+    return str(panel + 1) if panel else ""
+
+
 def _panel(
-    study: StudyResult, quantity: Quantity, row: Row, n: int, *, legend: bool
+    study: StudyResult, quantity: Quantity, row: Row, n: str, *, legend: bool
 ) -> Iterator[Json]:
     variants = study.sweep(quantity)
     x = [variant.values[quantity.name] for variant in variants]

@@ -53,26 +53,31 @@ def _shortfalls(study: StudyResult) -> Markup:
 
 def _numbers(study: StudyResult) -> Markup:
     quantities = [Column(q.symbol, q.unit, numeric=True) for q in study.quantities]
-    metrics = [Column(c.heading, _unit(c.unit), numeric=True) for c in study.columns]
+    metrics = [Column(_lines(c.heading), _unit(c.unit), numeric=True) for c in study.columns]
     rows = [
         [
-            _name(study, variant),
+            "mission" if _as_it_stands(study, variant) else "",
             *(significant(variant.values[q.name]) for q in study.quantities),
             *(significant(variant.value(c.metric), 3) for c in study.columns),
         ]
         for variant in study.variants
     ]
     published = [significant(c.published, 3) for c in study.columns]
-    caption = "Each variant's numbers; the mission as it stands is marked."
+    caption = "Each variant's numbers; one of them is the mission as it stands."
     if any(cell != NOTHING for cell in published):
         rows.append(["published", *[NOTHING] * len(quantities), *published])
-        caption += f" Last row: {SOURCE}."
-    return table(caption, [Column("Variant"), *quantities, *metrics], rows, wide=True)
+        caption += f" Published: {SOURCE}."
+    return table(caption, [Column(""), *quantities, *metrics], rows, wide=True)
 
 
-def _name(study: StudyResult, variant: StudyVariant) -> str:
-    as_it_stands = all(variant.values[q.name] == q.base for q in study.quantities)
-    return joined(element("strong", variant.name), " (mission)") if as_it_stands else variant.name
+def _as_it_stands(study: StudyResult, variant: StudyVariant) -> bool:
+    return all(variant.values[q.name] == q.base for q in study.quantities)
+
+
+def _lines(heading: str) -> Markup:
+    """A heading broken at its commas, for a narrow column."""
+    first, *others = heading.split(", ")
+    return joined(first, *(joined(Markup("<br>"), other) for other in others))
 
 
 def _unit(unit: str) -> str:

@@ -37,7 +37,7 @@ def spoil(campaign: Path, old: str, new: str) -> tuple[Path, int, int]:
 def test_help_names_every_command(shell: Shell) -> None:
     done = shell("--help")
     assert (done.returncode, done.stderr) == (0, "")
-    for command in ("init", "plan", "fly", "report", "regress", "doctor", "schema"):
+    for command in ("init", "plan", "fly", "report", "regress", "study", "doctor", "schema"):
         assert f" {command} " in done.stdout
 
 
@@ -75,7 +75,7 @@ def test_schema_prints_json_on_stdout(capsys: pytest.CaptureFixture[str]) -> Non
 
 
 def test_every_command_takes_json(shell: Shell) -> None:
-    for command in ("init", "plan", "fly", "report", "regress", "doctor", "schema"):
+    for command in ("init", "plan", "fly", "report", "regress", "study", "doctor", "schema"):
         assert "--json" in shell(command, "--help").stdout
 
 

@@ -7,7 +7,9 @@ import pytest
 from scipy.spatial.transform import Rotation
 from synthetic import SyntheticFlight, nine_points
 
+from inspect_cli.commands.study_force import lag_contact_rmse
 from inspect_cli.metrics.evaluate import evaluate
+from inspect_cli.metrics.flight import Flight
 from inspect_cli.metrics.force_sensor import low_pass
 from inspect_cli.metrics.geometry import rotation_vectors, turned_back_by, turned_by
 from inspect_cli.metrics.pose_error import turned_frames
@@ -138,6 +140,16 @@ def test_force_and_torque_are_compared_where_they_act(flight: SyntheticFlight) -
     # z_S is −x_W: what pulls the vehicle along +x_W is a press of −5 N.
     assert value(flight, "force_sensor.peak_n") == pytest.approx(-5.0, abs=1e-6)
     assert value(flight, "force_sensor.noise_n") == pytest.approx(0.0, abs=1e-6)
+
+
+def test_the_lag_alone_errs_by_what_decays(flight: SyntheticFlight) -> None:
+    """5 N from the log's first tick on leave 5 e^(−K t), whatever the observer made of them."""
+    sensed(flight)
+    gain = flight.platform.control.observer_gain[0]
+    times, touching = flight.rows(State)["t_s"], flight.rows(State)["f_normal"] > 0.1
+    left = 5.0 * np.exp(-gain * (times - times[0]))[touching]
+    expected = float(np.sqrt(np.mean(left**2)))
+    assert lag_contact_rmse(Flight(flight.log())) == pytest.approx(expected, rel=1e-6, abs=1e-6)
 
 
 def test_the_estimated_attitude_turns_the_estimated_force(flight: SyntheticFlight) -> None:
