@@ -145,11 +145,14 @@ def test_force_and_torque_are_compared_where_they_act(flight: SyntheticFlight) -
 def test_the_lag_alone_errs_by_what_decays(flight: SyntheticFlight) -> None:
     """5 N from the log's first tick on leave 5 e^(−K t), whatever the observer made of them."""
     sensed(flight)
-    gain = flight.platform.control.observer_gain[0]
+    gain = 0.05  # slow enough for a good part to be left at the last of the nine touches
+    control = flight.platform.control.model_copy(update={"observer_gain": (gain,) * 3})
+    flight.platform = flight.platform.model_copy(update={"control": control})
     times, touching = flight.rows(State)["t_s"], flight.rows(State)["f_normal"] > 0.1
     left = 5.0 * np.exp(-gain * (times - times[0]))[touching]
     expected = float(np.sqrt(np.mean(left**2)))
-    assert lag_contact_rmse(Flight(flight.log())) == pytest.approx(expected, rel=1e-6, abs=1e-6)
+    assert expected > 0.5
+    assert lag_contact_rmse(Flight(flight.log())) == pytest.approx(expected, rel=1e-6)
 
 
 def test_the_estimated_attitude_turns_the_estimated_force(flight: SyntheticFlight) -> None:
