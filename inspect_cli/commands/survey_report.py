@@ -7,15 +7,17 @@ from pathlib import Path
 
 from pydantic import ValidationError
 
-from inspect_cli.commands.runs import log_of, write_model
-from inspect_cli.errors import InputError
+from inspect_cli.commands.runs import LOG_NAME, SORTIES, log_of, write_model
+from inspect_cli.errors import InputError, LogError
 from inspect_cli.log.reader import RunLog, read_log
 from inspect_cli.metrics.evaluate import evaluate
 from inspect_cli.metrics.survey import joined_result
 from inspect_cli.reporting.report import write_report
 from inspect_cli.reporting.survey import write_survey_report
-from inspect_cli.schema.coverage import CoveragePlan
+from inspect_cli.schema.coverage import CoveragePlan, Sortie
 from inspect_cli.schema.result import Result
+
+FLY_AGAIN = "fly the survey again, or report its sorties one by one"
 
 
 def survey_of(run: Path) -> CoveragePlan | None:
@@ -32,20 +34,31 @@ def survey_of(run: Path) -> CoveragePlan | None:
         if json.loads(content).get("kind") != "coverage":
             return None
         return CoveragePlan.model_validate_json(content)
+    except ValidationError as error:
+        first = error.errors(include_url=False)[0]
+        where = ".".join(map(str, first["loc"]))
+        what = f"{file}: not the plan of a survey: {where}: {first['msg']}"
+        raise InputError(what, hint=FLY_AGAIN) from error
     except (ValueError, AttributeError) as error:
-        if isinstance(error, ValidationError):
-            raise InputError(f"{file}: not the plan of a survey: {error}") from error
+        if any(run.glob(SORTIES)):
+            raise InputError(
+                f"{file}: the plan of the survey is damaged", hint=FLY_AGAIN
+            ) from error
         return None  # the log carries the plan of a single flight
 
 
 def report_survey(run: Path, survey: CoveragePlan, folder: Path) -> tuple[Result, Path]:
-    """Score and report every sortie that was flown, and the survey they make together."""
+    """Score and report every sortie that was flown, and the survey they make together.
+
+    Raises:
+        LogError: the log of a sortie is damaged; the others can be reported one by one.
+        InputError: there is no sortie, or one is missing before another.
+    """
     first: RunLog | None = None
     results: list[Result] = []
-    for sortie in survey.sorties:
-        try:
-            log = read_log(log_of(run / sortie.folder))
-        except InputError:
+    for sortie, file in _flown(run, survey):
+        log = _log_that_was_begun(file)
+        if log is None:
             break
         result = evaluate(log)
         own = folder / sortie.folder
@@ -61,6 +74,36 @@ def report_survey(run: Path, survey: CoveragePlan, folder: Path) -> tuple[Result
     joined = joined_result(results, unvisited, first.mission().acceptance, _seed(run))
     write_model(folder / "metrics.json", joined)
     return joined, write_survey_report(first, joined, results, survey, folder)
+
+
+def _flown(run: Path, survey: CoveragePlan) -> list[tuple[Sortie, Path]]:
+    """The sorties that have a log, with it."""
+    flown: list[tuple[Sortie, Path]] = []
+    missing = ""
+    for sortie in survey.sorties:
+        try:
+            file = log_of(run / sortie.folder)
+        except InputError:
+            missing = missing or sortie.folder
+            continue
+        if not file.is_file():
+            missing = missing or sortie.folder
+            continue
+        if missing:
+            what = f"{run}: {missing} has no {LOG_NAME}, yet {sortie.folder} was flown after it"
+            raise InputError(what, hint=f"bring it back, or report {run / sortie.folder} alone")
+        flown.append((sortie, file))
+    return flown
+
+
+def _log_that_was_begun(file: Path) -> RunLog | None:
+    """The log; None for one that was killed before anything of it had reached the disk."""
+    try:
+        return read_log(file)
+    except LogError:
+        if file.name != LOG_NAME:
+            return None
+        raise
 
 
 def _seed(run: Path) -> int | None:

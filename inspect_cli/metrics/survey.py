@@ -95,7 +95,12 @@ def _status(results: Sequence[Result], unvisited: int) -> tuple[Status, str]:
             why = f": {result.status_reason}" if result.status_reason else ""
             return result.status, f"sortie {number} was {result.status}{why}"
     if unvisited:
-        return "interrupted", f"only the first {len(results)} sorties were flown"
+        only = (
+            "the first sortie was"
+            if len(results) == 1
+            else f"the first {len(results)} sorties were"
+        )
+        return "interrupted", f"only {only} flown"
     return "completed", ""
 
 

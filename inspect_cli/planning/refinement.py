@@ -9,7 +9,7 @@ is looked at.
 from __future__ import annotations
 
 from collections.abc import Mapping
-from itertools import combinations
+from itertools import combinations, islice
 from typing import NamedTuple
 
 from inspect_cli.planning.lattice import Place, along_m, between
@@ -44,7 +44,8 @@ def places_between(
             doubtful.append((-difference_mv, a, b))
     found: dict[str, Place] = {}
     for _, a, b in sorted(doubtful):
-        steps = list(between(prim, readings[a].place, readings[b].place, pitch_m))
+        on_the_way = between(prim, readings[a].place, readings[b].place, pitch_m)
+        steps = list(islice(on_the_way, rule.max_points + 1))  # one alone has no number
         for k, place in enumerate(steps, 1):
             found[f"{a}-{b}" if len(steps) == 1 else f"{a}-{b}.{k}"] = place
     return dict(list(found.items())[: rule.max_points])

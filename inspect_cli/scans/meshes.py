@@ -26,7 +26,8 @@ def read_triangles(path: Path) -> ReadTriangles:
     """The triangles of an STL, OBJ or PLY file, told by its suffix, in the file's coordinates.
 
     Triangles with an invalid corner are dropped and counted. Raises GeometryError where the file
-    is missing, empty, damaged, truncated or without faces, or where the faces have no area. An
+    is missing, empty, damaged, truncated or without faces, or where the faces have no area or
+    corners that the file does not hold. An
     OBJ file does not say how many faces it should have: a cut is noticed only where it leaves a
     broken line.
     """
@@ -46,6 +47,9 @@ def read_triangles(path: Path) -> ReadTriangles:
         raise _without_faces(path)
     if len(triangles) < promised:
         raise truncated(path, f"{promised} faces", str(len(triangles)))
+    if triangles.min() < 0 or triangles.max() >= len(vertices):
+        what = f"a face names a corner that is not among the {len(vertices)} vertices"
+        raise refused(path, what, "export the mesh again")
     corners = vertices[triangles]
     valid = np.all(np.isfinite(corners), axis=(1, 2))
     if not valid.any():

@@ -115,6 +115,16 @@ class Coverage(ContactOptions):
     refine: Refinement | None = None
     """Without it, no points are added in flight."""
 
+    @model_validator(mode="after")
+    def _refined_is_closer(self) -> Coverage:
+        closer_m = self.refine.pitch_m if self.refine else None
+        if closer_m is not None and closer_m >= self.pitch_m:
+            raise ValueError(
+                f"refine.pitch_m {closer_m:g} must be below pitch_m {self.pitch_m:g}: "
+                "no point would ever be added"
+            )
+        return self
+
 
 class Hold(Strict):
     """A pose in free air, held for a time."""
@@ -214,6 +224,8 @@ class Task(Strict):
             raise ValueError(f"give exactly one of {', '.join(KINDS)}")
         if self.sensor == "half_cell" and given[0] not in CONTACTS:
             raise ValueError(f"the half-cell reads at contacts; a {given[0]} has none to read at")
+        if self.coverage and self.coverage.refine and self.instrument is None:
+            raise ValueError("refine compares readings; sensor: none takes none")
         return self
 
     @property

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import csv
 import json
+import re
 import shutil
 from pathlib import Path
 
@@ -14,7 +15,7 @@ from inspect_cli.commands.fly import FlyOutcome, fly
 from inspect_cli.commands.plan import plan
 from inspect_cli.commands.regress import regress
 from inspect_cli.commands.report import report
-from inspect_cli.errors import InputError
+from inspect_cli.errors import InputError, LogError
 from inspect_cli.log.reader import read_log
 from inspect_cli.schema.coverage import CoveragePlan
 
@@ -135,12 +136,56 @@ def test_a_killed_survey_keeps_its_finished_sorties(flown: FlyOutcome, tmp_path:
     (outcome,) = report([killed])
     result = outcome.result
     assert result.status == "interrupted"
-    assert result.status_reason == "only the first 1 sorties were flown"
+    assert result.status_reason == "only the first sortie was flown"
     assert sum(point.valid for point in result.points) == 6
     assert [point.reason for point in result.points[6:]] == ["not visited"] * 7
     shutil.rmtree(killed / "sortie-1")
     with pytest.raises(InputError, match="holds no flown sortie"):
         report([killed])
+
+
+def test_a_damaged_sortie_is_not_taken_for_one_that_was_not_flown(
+    flown: FlyOutcome, tmp_path: Path
+) -> None:
+    run_folder = tmp_path / "damaged"
+    shutil.copytree(flown.folder, run_folder)
+    log = run_folder / "sortie-2" / "flight.mcap"
+    whole = log.read_bytes()
+    log.write_bytes(whole[: len(whole) // 2] + bytes(200) + whole[len(whole) // 2 + 200 :])
+    with pytest.raises(LogError, match="sortie-2"):
+        report([run_folder])
+    log.unlink()
+    with pytest.raises(InputError, match=r"sortie-2 has no flight\.mcap, yet sortie-3 was"):
+        report([run_folder])
+
+
+def test_a_sortie_killed_before_its_first_byte_was_not_flown(
+    flown: FlyOutcome, tmp_path: Path
+) -> None:
+    killed = tmp_path / "killed"
+    shutil.copytree(flown.folder, killed, ignore=shutil.ignore_patterns("sortie-2", "sortie-3"))
+    (killed / "sortie-2").mkdir()
+    (killed / "sortie-2" / "flight.mcap.part").write_bytes(b"")
+    (outcome,) = report([killed])
+    assert outcome.result.status_reason == "only the first sortie was flown"
+
+
+@pytest.mark.parametrize(
+    ("plan_file", "message"),
+    [
+        ('{"kind": "coverage"}', "plan.json: not the plan of a survey: mission: Field required$"),
+        ('{"kind":', "plan.json: the plan of the survey is damaged"),
+    ],
+)
+def test_a_damaged_plan_of_a_survey(
+    flown: FlyOutcome, tmp_path: Path, plan_file: str, message: str
+) -> None:
+    run_folder = tmp_path / "damaged"
+    shutil.copytree(flown.folder, run_folder)
+    (run_folder / "plan.json").write_text(plan_file)
+    with pytest.raises(InputError) as raised:
+        report([run_folder])
+    assert re.search(message, raised.value.problems[0].what)
 
 
 def test_the_command_line_prints_the_plan(campaign: Path, capfd: pytest.CaptureFixture) -> None:

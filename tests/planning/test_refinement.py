@@ -41,6 +41,12 @@ def test_a_finer_pitch_gives_more_points_between():
     assert list(found) == ["1-2.1", "1-2.2"]
 
 
+def test_a_tiny_pitch_stops_at_the_most_points():
+    rule = Refinement(pitch_m=1e-12, difference_mv=200, max_points=3)
+    found = places_between(PRIM, COVERAGE, rule, lattice([-100, -350]))
+    assert list(found) == ["1-2.1", "1-2.2", "1-2.3"]
+
+
 def test_a_missing_reading_has_no_neighbours():
     readings = lattice([-100, -400, -100])
     del readings["2"]

@@ -54,6 +54,10 @@ def test_it_is_read_with_its_defaults(campaign: Path) -> None:
             "coverage.refine.max_points: must be at least 1; found 0",
         ),
         (
+            "on: wall, pitch_m: 0.3, refine: {pitch_m: 0.3}",
+            "tasks[0].coverage: refine.pitch_m 0.3 must be below pitch_m 0.3",
+        ),
+        (
             "on: wall, pitch_m: 1, starts: [{height: 1}]",
             "tasks[0].coverage.starts[0].height: unknown key",
         ),
@@ -63,6 +67,12 @@ def test_what_makes_no_sense(refusal: Callable[..., list[str]], text: str, messa
     problems = refusal(GRID, coverage(text))
     assert len(problems) == 1, problems
     assert message in problems[0], problems
+
+
+def test_a_refinement_without_readings(refusal: Callable[..., list[str]]) -> None:
+    blind = coverage("on: wall, pitch_m: 0.5, refine: {}") + "    sensor: none\n"
+    (problem,) = refusal(GRID + "    sensor: half_cell\n", blind)
+    assert "tasks[0]: refine compares readings; sensor: none takes none" in problem
 
 
 def test_a_coverage_beside_another_task(refusal: Callable[..., list[str]]) -> None:

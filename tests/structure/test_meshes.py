@@ -120,6 +120,15 @@ def test_mesh_without_area_is_refused(tmp_path: Path) -> None:
         read_mesh(tmp_path / "a.obj", 10, np.random.default_rng(0))
 
 
+@pytest.mark.parametrize("corner", [-1, 4, 99])
+def test_faces_of_corners_that_are_not_there_are_refused(corner: int, tmp_path: Path) -> None:
+    write_ply(tmp_path / "wall.ply")
+    text = (tmp_path / "wall.ply").read_text()
+    (tmp_path / "wall.ply").write_text(text.replace("3 0 2 3", f"3 0 2 {corner}"))
+    with pytest.raises(GeometryError, match=r"wall\.ply: a face names a corner .* 4 vertices"):
+        read_mesh(tmp_path / "wall.ply", 10, np.random.default_rng(0))
+
+
 def test_missing_empty_and_foreign_files_are_refused(tmp_path: Path) -> None:
     rng = np.random.default_rng(0)
     with pytest.raises(GeometryError, match="there is no such file"):
