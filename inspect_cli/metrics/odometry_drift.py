@@ -53,6 +53,9 @@ def _model(flight: Flight) -> OdometryModel:
     odometry = flight.platform.sensors.odometry
     if odometry is None or flight.log.mission().estimation != "onboard":
         raise NotMeasured("the flight was not flown on odometry")
+    truth = flight.log.truth()
+    if truth is not None and any(truth.platform.odometry_drift_mps):
+        raise NotMeasured("the odometry truly drifted otherwise than its model says")
     return odometry
 
 

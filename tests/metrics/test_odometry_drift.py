@@ -55,7 +55,9 @@ def test_the_expected_rmse_is_that_of_many_runs() -> None:
         state=rows,
         airborne=np.ones(len(rows), bool),
         platform=SimpleNamespace(sensors=SimpleNamespace(odometry=MODEL)),
-        log=SimpleNamespace(mission=lambda: SimpleNamespace(estimation="onboard")),
+        log=SimpleNamespace(
+            mission=lambda: SimpleNamespace(estimation="onboard"), truth=lambda: None
+        ),
     )
     expected = [odometry_drift.expected_position_rmse(flight, axis) for axis in range(3)]
     expected.append(odometry_drift.expected_yaw_rmse(flight))
