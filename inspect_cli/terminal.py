@@ -109,7 +109,7 @@ def print_survey_plan(plan: CoveragePlan, file: Path) -> None:
     table = _table(
         f"{plan.mission}: sorties",
         *("sortie", "points", "start x, y\n/m", "time\n/s", "energy\n/Wh", "way\n/m"),
-        *("cable\n/m", "least thrust\nmargin /N", "least\nclearance /m"),
+        *("cable\n/m", "least\nthrust\nmargin /N", "least\nclearance\n/m"),
     )
     for sortie in plan.sorties:
         flight = sortie.plan
@@ -122,7 +122,7 @@ def print_survey_plan(plan: CoveragePlan, file: Path) -> None:
             f"{flight.path_m:.1f}",
             f"{flight.cable_m:.1f}",
             f"{min(t.thrust_margin_n for t in flight.targets):.1f}",
-            f"{min(t.clearance_m for t in flight.targets):.2f}",
+            _number(min(_clearances(flight), default=None), ".2f"),
         )
     out.print(table)
     for reason, labels in _grouped((p.reason, p.label) for p in plan.skipped).items():
@@ -130,7 +130,8 @@ def print_survey_plan(plan: CoveragePlan, file: Path) -> None:
         text = Text.assemble((f"left out, point{many} {', '.join(labels)}: ", UNSURE), reason)
         out.print(text, soft_wrap=True)
     out.print(
-        f"{plan.points} points in {len(plan.sorties)} sorties, {len(plan.skipped)} left out, "
+        f"{_counted(plan.points, 'point')} in {_counted(len(plan.sorties), 'sortie')}, "
+        f"{len(plan.skipped)} left out, "
         f"{plan.tour_m:.1f} m through all standoffs"
     )
     out.print(
@@ -149,7 +150,7 @@ def print_plan(plan: Plan, file: Path) -> None:
     points = _table(
         f"{plan.mission}: targets",
         *("target", "kind", "surface", "x, y, z /m", "press\n/m", "force\n/N"),
-        *("thrust\nmargin /N", "clearance\n/m"),
+        *("thrust\nmargin\n/N", "clear-\nance\n/m"),
     )
     for target in plan.targets:
         points.add_row(
@@ -157,10 +158,10 @@ def print_plan(plan: Plan, file: Path) -> None:
             target.kind,
             target.surface or "",
             ", ".join(f"{x:.3f}" for x in target.p_WC),
-            f"{target.press_m:.2f}",
-            f"{target.expected_force_n:.2f}",
+            _number(None if target.kind == "pose" else target.press_m, ".2f"),
+            _number(None if target.kind == "pose" else target.expected_force_n, ".2f"),
             f"{target.thrust_margin_n:.1f}",
-            f"{target.clearance_m:.2f}",
+            _number(target.clearance_m, ".2f"),
         )
     out.print(points)
     out.print(
@@ -169,6 +170,14 @@ def print_plan(plan: Plan, file: Path) -> None:
     )
     _print_warnings(plan.warnings)
     out.print(f"plan: {_near(file)}", soft_wrap=True)
+
+
+def _clearances(plan: Plan) -> list[float]:
+    return [t.clearance_m for t in plan.targets if t.clearance_m is not None]
+
+
+def _counted(count: int, what: str) -> str:
+    return f"{count} {what}" if count == 1 else f"{count} {what}s"
 
 
 def _print_surfaces(plan: Plan) -> None:
@@ -393,7 +402,7 @@ def _bounds(check: Check) -> str:
 
 def _table(title: str, *columns: str) -> Table:
     table = Table(
-        title=title, title_justify="left", box=SIMPLE_HEAD, show_edge=False, pad_edge=False
+        title=title, title_justify="left", box=SIMPLE_HEAD, show_edge=False, padding=(0, 1, 0, 0)
     )
     for column in columns:
         table.add_column(column, no_wrap=True)

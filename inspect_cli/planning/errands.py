@@ -29,7 +29,14 @@ from inspect_cli.planning.order import visiting_order
 from inspect_cli.planning.path import Stop, Way, find_way
 from inspect_cli.planning.points import ContactPoint, in_words, points_of_task
 from inspect_cli.planning.strokes import fault_of, points_along, sliding_s, slowed, stroke_model
-from inspect_cli.planning.visits import ContactVisit, HoldVisit, ServoVisit, StrokeVisit, Visit
+from inspect_cli.planning.visits import (
+    ContactVisit,
+    FreePose,
+    HoldVisit,
+    ServoVisit,
+    StrokeVisit,
+    Visit,
+)
 from inspect_cli.schema import plan
 from inspect_cli.schema.mission import Mission
 from inspect_cli.schema.tasks import (
@@ -243,10 +250,7 @@ class HoldErrand:
         found = _free_pose(situation, start, before)
         if isinstance(found, list):
             return found
-        posture, way, margin_n = found
-        return HoldVisit(
-            self.label, self.hold, posture, situation.capabilities, self.impedance, way, margin_n
-        )
+        return HoldVisit(self.label, self.hold, found, situation.capabilities, self.impedance)
 
 
 @dataclass(frozen=True)
@@ -267,25 +271,20 @@ class ServoErrand:
         found = _free_pose(situation, self.servo.start, before)
         if isinstance(found, list):
             return found
-        posture, way, margin_n = found
         capabilities = situation.capabilities
         force_n = capabilities.press_force(self.servo.press_m, self.impedance)
-        _, R_WT = capabilities.tool_pose(posture)
+        _, R_WT = capabilities.tool_pose(found.posture)
         pushed = np.concatenate([-force_n * R_WT[:, 2], np.zeros(3)])
         loaded = margin_reasons(
-            capabilities.margins(posture, pushed), f"pressing with {force_n:.2f} N"
+            capabilities.margins(found.posture, pushed), f"pressing with {force_n:.2f} N"
         )
         if loaded:
             return loaded
-        return ServoVisit(
-            self.label, self.servo, posture, capabilities, self.impedance, way, force_n, margin_n
-        )
+        return ServoVisit(self.label, self.servo, found, capabilities, self.impedance, force_n)
 
 
-def _free_pose(
-    situation: Situation, start: ServoStart, before: Stop
-) -> tuple[Posture, Way, float] | list[Reason]:
-    """(posture, way there, thrust margin N) of a level pose in free air, or why it cannot be."""
+def _free_pose(situation: Situation, start: ServoStart, before: Stop) -> FreePose | list[Reason]:
+    """A level pose in free air, or why it cannot be."""
     capabilities = situation.capabilities
     q_WB = quaternion_exp(np.array([0.0, 0.0, np.radians(start.heading_deg)]))
     posture = Posture(np.array(start.position_m), q_WB, before.posture.arm_angle)
@@ -298,7 +297,9 @@ def _free_pose(
     if reasons:
         return reasons
     way = situation.way(before, Stop(posture, np.zeros(3)))
-    return way if isinstance(way, list) else (posture, way, margins.thrust_n)
+    if isinstance(way, list):
+        return way
+    return FreePose(posture, way, margins.thrust_n, gap.structure_m)
 
 
 def _reached(

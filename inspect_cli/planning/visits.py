@@ -169,21 +169,34 @@ class StrokeVisit:
 
 
 @dataclass(frozen=True)
+class FreePose:
+    """A pose in free air with the way there; ``clearance_m`` is infinite without a structure."""
+
+    posture: Posture
+    way: Way
+    thrust_margin_n: float
+    clearance_m: float
+
+
+@dataclass(frozen=True)
 class HoldVisit:
     """A pose in free air."""
 
     label: str
     hold: Hold
-    posture: Posture
+    pose: FreePose
     capabilities: Capabilities
     impedance: str
-    way: Way
-    thrust_margin_n: float
+
+    @property
+    def way(self) -> Way:
+        """The way to the pose."""
+        return self.pose.way
 
     @property
     def stop(self) -> Stop:
         """The pose."""
-        return Stop(self.posture, np.zeros(3))
+        return Stop(self.pose.posture, np.zeros(3))
 
     @property
     def tips_W(self) -> tuple[Vector, ...]:
@@ -192,15 +205,13 @@ class HoldVisit:
 
     def stretches(self, index: int) -> Iterator[Stretch]:
         """Hold."""
-        yield Stretch("hold", index, (self.posture,), self.hold.duration_s)
+        yield Stretch("hold", index, (self.pose.posture,), self.hold.duration_s)
 
     def target(self, index: int) -> Target:
         """A pose."""
         return _looking_target(
-            index, "pose", self.label, self.impedance, self.capabilities, self.posture
-        ).model_copy(
-            update={"dwell_s": self.hold.duration_s, "thrust_margin_n": self.thrust_margin_n}
-        )
+            index, "pose", self.label, self.impedance, self.capabilities, self.pose
+        ).model_copy(update={"dwell_s": self.hold.duration_s})
 
 
 @dataclass(frozen=True)
@@ -209,17 +220,20 @@ class ServoVisit:
 
     label: str
     servo: Servo
-    posture: Posture
+    pose: FreePose
     capabilities: Capabilities
     impedance: str
-    way: Way
     expected_force_n: float
-    thrust_margin_n: float
+
+    @property
+    def way(self) -> Way:
+        """The way to the start pose."""
+        return self.pose.way
 
     @property
     def stop(self) -> Stop:
         """The start pose: nobody knows where the surface will be left, so the way leads back."""
-        return Stop(self.posture, np.zeros(3))
+        return Stop(self.pose.posture, np.zeros(3))
 
     @property
     def tips_W(self) -> tuple[Vector, ...]:
@@ -228,7 +242,7 @@ class ServoVisit:
 
     def stretches(self, index: int) -> Iterator[Stretch]:
         """Approach, press and settle, slide, settle, retreat, back to the start pose."""
-        here, servo = (self.posture,), self.servo
+        here, servo = (self.pose.posture,), self.servo
         way_s = servo.slide_m / servo.speed_mps
         yield Stretch("approach", index, (self._ahead(EXPECTED_DISTANCE_M),))
         yield Stretch("press", index, (self._ahead(EXPECTED_DISTANCE_M),), servo.settle_s)
@@ -247,7 +261,7 @@ class ServoVisit:
             direction=servo.direction, distance_m=servo.slide_m, speed_mps=servo.speed_mps
         )
         return _looking_target(
-            index, "following", self.label, self.impedance, self.capabilities, self.posture
+            index, "following", self.label, self.impedance, self.capabilities, self.pose
         ).model_copy(
             update={
                 "dwell_s": servo.settle_s,
@@ -255,15 +269,14 @@ class ServoVisit:
                 "standoff_m": servo.standoff_m,
                 "following": following,
                 "expected_force_n": self.expected_force_n,
-                "thrust_margin_n": self.thrust_margin_n,
             }
         )
 
     def _ahead(self, distance_m: float) -> Posture:
         """The start pose moved along the tool's axis."""
-        _, R_WT = self.capabilities.tool_pose(self.posture)
-        p_WB = self.posture.p_WB + distance_m * R_WT[:, 2]
-        return Posture(p_WB, self.posture.q_WB, self.posture.arm_angle)
+        here = self.pose.posture
+        _, R_WT = self.capabilities.tool_pose(here)
+        return Posture(here.p_WB + distance_m * R_WT[:, 2], here.q_WB, here.arm_angle)
 
 
 def touching_target(
@@ -304,12 +317,12 @@ def _looking_target(
     label: str,
     impedance: str,
     capabilities: Capabilities,
-    posture: Posture,
+    pose: FreePose,
 ) -> Target:
     """The part of a target in free air: the tool's own place and axis stand for the surface's."""
-    p_WT, R_WT = capabilities.tool_pose(posture)
+    p_WT, R_WT = capabilities.tool_pose(pose.posture)
     w, x, y, z = (float(value) for value in matrix_to_quaternion(np.ascontiguousarray(R_WT)))
-    here = posture_model(posture)
+    here = posture_model(pose.posture)
     return Target.model_validate(
         {
             "index": index,
@@ -328,9 +341,9 @@ def _looking_target(
             "standoff": here,
             "contact": here,
             "expected_force_n": 0.0,
-            "thrust_margin_n": 0.0,
+            "thrust_margin_n": pose.thrust_margin_n,
             "tilt_margin_rad": None,
-            "clearance_m": 0.0,
+            "clearance_m": pose.clearance_m if np.isfinite(pose.clearance_m) else None,
         }
     )
 

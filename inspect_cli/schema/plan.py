@@ -114,8 +114,9 @@ class Target(Strict):
     thrust_margin_n: float
     tilt_margin_rad: float | None
     """None where tilts turn freely."""
-    clearance_m: float
-    """Least distance of the body from the structure on the way in and out."""
+    clearance_m: float | None
+    """Least distance of the body from the structure on the way in and out, or in a pose; None
+    where no structure is known."""
 
 
 class Leg(Strict):

@@ -193,6 +193,7 @@ def test_the_command_line_prints_the_plan(campaign: Path, capfd: pytest.CaptureF
     assert run(["plan", mission]) == 0
     told = capfd.readouterr().err
     assert "11 points in 2 sorties, 1 left out" in told
+    assert max(map(len, told.splitlines()[:-1])) <= 80
     assert "left out, point 9: kept out" in told
     assert run(["plan", mission, "--json"]) == 0
     printed = json.loads(capfd.readouterr().out)
@@ -200,6 +201,23 @@ def test_the_command_line_prints_the_plan(campaign: Path, capfd: pytest.CaptureF
     assert printed["energy_wh"] == pytest.approx(
         sum(sortie["plan"]["energy_wh"] for sortie in printed["sorties"])
     )
+
+
+def test_a_plan_of_every_kind_fits_a_terminal(campaign: Path, capfd: pytest.CaptureFixture) -> None:
+    tasks = """tasks:
+  - hold: {position_m: [0, 0.5, 1.2], duration_s: 1}
+  - trace: {on: wall, polyline_m: [[-0.1, 0], [0.1, 0]]}
+  - servo: {start: {position_m: [0.3, 0, 1.2]}, slide_m: 0}
+"""
+    head, rest = TWO.replace("name: two", "name: kinds").split("tasks:\n")
+    mission = campaign / "missions" / "kinds.yaml"
+    mission.write_text(head + tasks + rest[rest.index("acceptance:") :])
+    assert run(["plan", str(mission)]) == 0
+    told = capfd.readouterr().err
+    assert max(map(len, told.splitlines()[:-1])) <= 80
+    (held,) = [line for line in told.splitlines() if " pose " in line]
+    assert held.split()[-4:-2] == ["—", "—"]
+    assert float(held.split()[-1]) > 0.5
 
 
 def test_an_aborted_sortie_ends_the_survey(campaign: Path) -> None:

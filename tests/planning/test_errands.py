@@ -8,6 +8,7 @@ from builders import column, mission, points, wall
 from rigid import RigidVehicle
 
 from inspect_cli.errors import InfeasibleError
+from inspect_cli.interfaces import Posture
 from inspect_cli.planning.planner import make_plan
 from inspect_cli.schema.plan import Plan, PlannedSurface
 from inspect_cli.schema.primitives import primitive_of
@@ -42,6 +43,18 @@ def refusal(*tasks, **more) -> str:
 
 
 EVERYTHING = (POSE, points((2.0, 0.2, 1.5)), trace(repeat=2), SERVO, points((2.0, 0.0, 1.5)))
+
+
+def test_room_about_a_pose():
+    """The wall is the plane x = 2: the sphere that reaches farthest along x is nearest to it."""
+    for task in (POSE, SERVO):
+        (target,) = planned(task, vehicle=RigidVehicle()).targets
+        posture = Posture(np.array(target.contact.p_WB), np.array(target.contact.q_WB), np.zeros(0))
+        spheres = RigidVehicle().collision_spheres(posture)
+        assert target.clearance_m == pytest.approx(2.0 - np.max(spheres[:, 0] + spheres[:, 3]))
+        (alone,) = planned(task, surfaces={}).targets
+        assert alone.clearance_m is None
+        assert alone.thrust_margin_n == target.thrust_margin_n > 0.0
 
 
 def test_all_kinds_in_one_mission():
