@@ -16,7 +16,6 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 import numpy as np
-from scipy.signal import lfilter
 
 from inspect_cli.spatial.arrays import Matrix, Vector
 
@@ -26,6 +25,8 @@ def first_order_response(force_n: Vector, period_s: float, gain: float) -> Vecto
 
     Exact for a force that is linear between its samples. ``gain`` is K, 1/s.
     """
+    from scipy.signal import lfilter  # slow to import, and only a study needs it
+
     decay = np.exp(-gain * period_s)
     rising = 1.0 - (1.0 - decay) / (gain * period_s)
     numerator = [rising, 1.0 - decay - rising]

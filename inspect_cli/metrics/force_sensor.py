@@ -19,7 +19,6 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.signal import butter, sosfiltfilt
 
 from inspect_cli.metrics.flight import Flight, NotMeasured, largest, root_mean_square
 from inspect_cli.metrics.geometry import turned_back_by, turned_by
@@ -66,6 +65,8 @@ def signal(flight: Flight) -> Signal:
 
 def low_pass(samples: Points, rate_hz: float) -> Points:
     """Samples (n, k) through the filter, without a lag."""
+    from scipy.signal import butter, sosfiltfilt  # slow to import, and planning reads this page
+
     sections = butter(ORDER, CUTOFF_HZ, fs=rate_hz, output="sos")
     filtered: Points = sosfiltfilt(sections, samples, axis=0)
     return filtered
