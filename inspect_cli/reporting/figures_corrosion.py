@@ -6,7 +6,7 @@ import math
 from collections.abc import Sequence
 from statistics import NormalDist
 
-from inspect_cli.metrics.corrosion import SUSTAINS_CORROSION_OHM_M
+from inspect_cli.assessment.classes import SUSTAINS_CORROSION_OHM_M
 from inspect_cli.reporting.figure import Figure, Json, words
 from inspect_cli.reporting.palette import ASTM_STYLES, CORROSION_STYLES, INK, MUTED
 from inspect_cli.reporting.points import ReadPoint

@@ -6,7 +6,7 @@ import math
 from collections.abc import Sequence
 from itertools import pairwise
 
-from inspect_cli.metrics.corrosion import ACTIVE_BELOW_V, PASSIVE_ABOVE_V
+from inspect_cli.assessment.classes import ACTIVE_BELOW_V, PASSIVE_ABOVE_V
 from inspect_cli.reporting.figure import Json, words
 from inspect_cli.reporting.palette import POTENTIAL_STOPS
 from inspect_cli.reporting.points import ReadPoint

@@ -12,7 +12,7 @@ from example_flights import Flight, spoil
 from plotly.offline import get_plotlyjs
 from report_pages import Page, Reported, decoded, trace
 
-from inspect_cli.metrics.corrosion import COMBINED_RULE
+from inspect_cli.assessment.classes import COMBINED_RULE
 from inspect_cli.metrics.evaluate import evaluate
 from inspect_cli.records import (
     Command,

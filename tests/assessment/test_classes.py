@@ -6,7 +6,7 @@ import math
 
 import pytest
 
-from inspect_cli.metrics.corrosion import (
+from inspect_cli.assessment.classes import (
     COMBINED_RULE,
     astm_class,
     combined_verdict,

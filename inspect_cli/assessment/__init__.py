@@ -1,0 +1,1 @@
+"""From readings to findings: classes, populations, gradients, areas, interpolated maps."""

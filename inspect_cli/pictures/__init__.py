@@ -1,0 +1,1 @@
+"""Rendered pictures and films of a flight, from its log."""
