@@ -8,8 +8,8 @@ from typing import SupportsFloat
 
 import numpy as np
 
-from inspect_cli.metrics.contact import position_error
 from inspect_cli.assessment.classes import astm_class, combined_verdict, resistivity
+from inspect_cli.metrics.contact import position_error
 from inspect_cli.metrics.flight import Dwell, Flight, NotMeasured
 from inspect_cli.records import InvalidReason, Reading, TrueContact
 from inspect_cli.schema.plan import Target

@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Sequence
 from pathlib import Path
 
+from inspect_cli.assessment.classes import COMBINED_RULE
 from inspect_cli.files import write_whole
 from inspect_cli.log.reader import RunLog
-from inspect_cli.assessment.classes import COMBINED_RULE
 from inspect_cli.records import Reference
 from inspect_cli.reporting.checks_table import checks_table
 from inspect_cli.reporting.experiments import experiment_sections
