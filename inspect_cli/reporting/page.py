@@ -5,44 +5,36 @@ from __future__ import annotations
 import base64
 import hashlib
 from collections.abc import Sequence
-from dataclasses import dataclass
 from importlib import resources
 
 from plotly.offline import get_plotlyjs
 
+from inspect_cli.reporting.language import Language
 from inspect_cli.reporting.markup import Markup, data_script, element, joined
 from inspect_cli.reporting.palette import css_variables, plot_template
+from inspect_cli.reporting.text import say
 
 
-@dataclass(frozen=True)
-class Section:
-    """A part of the page under a heading; ``name`` is its anchor."""
-
-    name: str
-    heading: str
-    content: Markup
-
-    def html(self) -> Markup:
-        """The section element."""
-        title = element("h2", self.heading, id=f"{self.name}-heading")
-        return element(
-            "section", title, self.content, id=self.name, aria_labelledby=f"{self.name}-heading"
-        )
-
-
-def page(title: str, header: Markup, sections: Sequence[Section]) -> str:
-    """The whole document.
+def page(
+    title: str,
+    header: Markup,
+    anchors: Sequence[tuple[str, Markup]],
+    sections: Sequence[Markup],
+    language: Language,
+) -> str:
+    """The whole document; ``anchors`` are the sections' names with their headings.
 
     Plotly stands in it once. The content security policy forbids every request, and every
     script but the two that are named by their hash: text that would slip through as markup
     still could not run.
     """
     scripts = [get_plotlyjs().replace("\r\n", "\n").replace("\r", "\n"), _file("page.js")]
-    links = (element("a", s.heading, href=f"#{s.name}") for s in sections)
+    links = (element("a", heading, href=f"#{name}") for name, heading in anchors)
+    label = language.plain(say("Sections"))
     content = [
         element("header", header),
-        element("nav", *links, aria_label="Sections"),
-        element("main", *(section.html() for section in sections)),
+        element("nav", *links, aria_label=label),
+        element("main", *sections),
         data_script(plot_template(), id="plot-template"),
         *(element("script", Markup(script)) for script in scripts),
     ]
@@ -54,7 +46,7 @@ def page(title: str, header: Markup, sections: Sequence[Section]) -> str:
         element("title", title),
         element("style", Markup(css_variables() + _file("page.css"))),
     )
-    document = element("html", element("head", head), element("body", *content), lang="en")
+    document = element("html", element("head", head), element("body", *content), lang=language.code)
     return f"<!DOCTYPE html>\n{document}\n"
 
 
@@ -66,7 +58,7 @@ def _policy(scripts: Sequence[str]) -> str:
     hashes = " ".join(f"'sha256-{_sha256(script)}'" for script in scripts)
     return (
         f"default-src 'none'; script-src {hashes}; style-src 'unsafe-inline'; "
-        "img-src data: blob:; base-uri 'none'; form-action 'none'"
+        "img-src data: blob:; media-src data:; base-uri 'none'; form-action 'none'"
     )
 
 
