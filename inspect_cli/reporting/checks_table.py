@@ -18,19 +18,19 @@ VERDICT_WORDS = {
 }
 
 
-def checks_table(checks: Sequence[Check]) -> Markup:
+def checks_table(checks: Sequence[Check]) -> list[Block]:
     """Every acceptance entry with its bounds, the published row it answers, and our value."""
     published = any(published_of(check.ref) for check in checks)
     remarked = any(_remark(check) for check in checks)
     columns = [
-        Column("Check", prose=True),
-        Column("Reference"),
-        *([Column("Published", prose=True)] if published else []),
-        Column("Required", numeric=True),
-        Column("Measured", numeric=True),
-        Column("Unit"),
-        Column("Verdict"),
-        *([Column("Remark", prose=True)] if remarked else []),
+        Column(say("Check"), prose=True),
+        Column(say("Reference")),
+        *([Column(say("Published"), prose=True)] if published else []),
+        Column(say("Required"), numeric=True),
+        Column(say("Measured"), numeric=True),
+        Column(say("Unit")),
+        Column(say("Verdict")),
+        *([Column(say("Remark"), prose=True)] if remarked else []),
     ]
     source = f" Published: {SOURCE}." if published else ""
     return table(

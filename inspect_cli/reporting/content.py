@@ -6,7 +6,7 @@ document into a page for the screen and into one for paper, in a ``Language``.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from typing import Literal, TypeAlias
 
@@ -121,6 +121,12 @@ class Film:
 Block: TypeAlias = (
     Heading | Paragraph | Facts | Notes | Boxes | Table | Folded | Figures | Picture | Film
 )
+
+
+def drawn(figures: Iterable[Figure], *, side_by_side: bool = False) -> list[Block]:
+    """The figures as a block; nothing where there is none."""
+    kept = tuple(figures)
+    return [Figures(kept, side_by_side)] if kept else []
 
 
 @dataclass(frozen=True)

@@ -116,7 +116,7 @@ def force_figure(flight: Flight, timeline: Timeline) -> Iterator[Figure]:
     )
 
 
-def rmse_table(result: Result) -> Markup:
+def rmse_table(result: Result) -> list[Block]:
     """Our root mean square errors beside the published ones; nothing where none is measured."""
     ours = {name: result.metrics.get(name) for name in TABLE_IV}
     if all(metric is None or metric.value is None for metric in ours.values()):
@@ -128,11 +128,11 @@ def rmse_table(result: Result) -> Markup:
         ratio = NOTHING if value is None else significant(value / published, 2)
         rows.append([_symbol(symbol), significant(value, 3), significant(published), unit, ratio])
     columns = [
-        Column("Estimate"),
-        Column("Ours, RMSE", numeric=True),
-        Column("Published, RMSE", numeric=True),
-        Column("Unit"),
-        Column("Ratio", numeric=True),
+        Column(say("Estimate")),
+        Column(say("Ours, RMSE"), numeric=True),
+        Column(say("Published, RMSE"), numeric=True),
+        Column(say("Unit")),
+        Column(say("Ratio"), numeric=True),
     ]
     return table(
         f"Errors of the estimates beside Table IV of {SOURCE}: pose from take-off to landing, "

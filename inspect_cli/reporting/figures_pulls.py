@@ -148,7 +148,7 @@ def _cord_wrench(log: RunLog) -> tuple[Vector, Points] | None:
     return felt["t_s"], np.hstack(turned)
 
 
-def pull_table(flight: Flight) -> Markup:
+def pull_table(flight: Flight) -> list[Block]:
     """One row for each pull.
 
     Raises:
@@ -156,16 +156,16 @@ def pull_table(flight: Flight) -> Markup:
     """
     rows = [_row(k + 1, pull) for k, pull in enumerate(pulls(flight))]
     columns = [
-        Column("Pull"),
-        Column("Peak force", "N", numeric=True),
-        Column("From ±x_B", "°", numeric=True),
-        Column("Along", "mm", numeric=True),
-        Column("Across", "mm", numeric=True),
-        Column("In z", "mm", numeric=True),
-        Column("By attitude", "mm at the tip", numeric=True),
-        Column("Compliance", "mm/N", numeric=True),
-        Column("Yaw", "rad", numeric=True),
-        Column("Torque", "N·m about z_B", numeric=True),
+        Column(say("Pull")),
+        Column(say("Peak force"), "N", numeric=True),
+        Column(say("From ±x_B"), "°", numeric=True),
+        Column(say("Along"), "mm", numeric=True),
+        Column(say("Across"), "mm", numeric=True),
+        Column(say("In z"), "mm", numeric=True),
+        Column(say("By attitude"), "mm at the tip", numeric=True),
+        Column(say("Compliance"), "mm/N", numeric=True),
+        Column(say("Yaw"), "rad", numeric=True),
+        Column(say("Torque"), "N·m about z_B", numeric=True),
     ]
     return table(
         "Pulls at the cord. Along, across and in z: the body's largest displacement in the "

@@ -22,7 +22,7 @@ from inspect_cli.reporting.content import (
     Section,
     Table,
 )
-from inspect_cli.reporting.figure import Figure
+from inspect_cli.reporting.figure import EQUAL_FRAME_PX, Figure
 from inspect_cli.reporting.language import Language, pieces
 from inspect_cli.reporting.markup import Markup, data_script, element, escaped, joined
 from inspect_cli.reporting.page import page
@@ -37,10 +37,9 @@ from inspect_cli.reporting.text import (
     Marked,
     Said,
     Text,
+    say,
 )
 
-EQUAL_FRAME_PX = 170
-"""Legend and axes around what is drawn at equal scales."""
 SEPARATORS = {",": ",\u202f", ".": ".\u202f"}
 """Plotly's signs for decimals and thousands, by the language's decimal sign."""
 
@@ -157,7 +156,7 @@ def _notes(notes: Notes, language: Language) -> Markup:
     items = (element("li", inline(item, language)) for item in notes.items)
     attributes: dict[str, str] = {"class_": notes.role} if notes.role else {}
     if notes.role == "warnings":
-        attributes |= {"role": "note"}
+        attributes |= {"role": "note", "aria_label": language.plain(say("Warnings"))}
     return element("ul", *items, **attributes)
 
 

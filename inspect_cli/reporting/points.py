@@ -6,6 +6,8 @@ import re
 from collections.abc import Sequence
 from dataclasses import dataclass
 
+from inspect_cli.reporting.recorded import recorded
+from inspect_cli.reporting.text import Text
 from inspect_cli.schema.plan import Plan, PlannedSurface, Target
 from inspect_cli.schema.result import PointResult, Result
 
@@ -21,6 +23,11 @@ class ReadPoint:
     def surface(self) -> str:
         """Name of the surface that the point lies on; empty for a point in free air."""
         return self.target.surface or "" if self.target else ""
+
+    @property
+    def reason(self) -> Text:
+        """Why the point is invalid; empty when valid."""
+        return recorded(self.point.reason)
 
     @property
     def is_reading(self) -> bool:

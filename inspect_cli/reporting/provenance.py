@@ -11,7 +11,7 @@ from inspect_cli.schema.plan import Plan
 from inspect_cli.schema.result import Result
 
 
-def provenance(log: RunLog, result: Result, plan: Plan) -> Markup:
+def provenance(log: RunLog, result: Result, plan: Plan) -> list[Block]:
     """Everything that is needed to compute the page again; it holds no time of day."""
     platform = log.platform()
     mission = log.mission()
@@ -35,36 +35,36 @@ def provenance(log: RunLog, result: Result, plan: Plan) -> Markup:
     return joined(facts, source, _warnings(plan), _versions(log), _files(log), _chosen(log))
 
 
-def _warnings(plan: Plan) -> Markup:
+def _warnings(plan: Plan) -> list[Block]:
     if not plan.warnings:
         return Markup("")
     items = (element("li", warning) for warning in plan.warnings)
     return joined(element("h3", "Warnings of the planner"), element("ul", *items))
 
 
-def _versions(log: RunLog) -> Markup:
+def _versions(log: RunLog) -> list[Block]:
     if not log.versions:
         return Markup("")
     rows = [[name, version] for name, version in sorted(log.versions.items())]
     return table(
-        "Versions of what computed the flight.", [Column("Software"), Column("Version")], rows
+        "Versions of what computed the flight.", [Column(say("Software")), Column(say("Version"))], rows
     )
 
 
-def _files(log: RunLog) -> Markup:
+def _files(log: RunLog) -> list[Block]:
     rows = [
         [name, number(len(data), 0), element("code", hashlib.sha256(data).hexdigest())]
         for name, data in sorted(log.attachments.items())
     ]
     columns = [
-        Column("Attachment"),
-        Column("Size", "bytes", numeric=True),
-        Column("SHA-256", prose=True),
+        Column(say("Attachment")),
+        Column(say("Size"), "bytes", numeric=True),
+        Column(say("SHA-256"), prose=True),
     ]
     return table("Files that the log carries.", columns, rows)
 
 
-def _chosen(log: RunLog) -> Markup:
+def _chosen(log: RunLog) -> list[Block]:
     """Numbers of the platform that no source gives, each with its reason."""
     chosen = log.platform().chosen
     if not chosen:
@@ -72,6 +72,6 @@ def _chosen(log: RunLog) -> Markup:
     rows = [[name, reason] for name, reason in sorted(chosen.items())]
     return table(
         "Numbers of the platform that no source gives, and why they were chosen.",
-        [Column("Number"), Column("Reason", prose=True)],
+        [Column(say("Number")), Column(say("Reason"), prose=True)],
         rows,
     )

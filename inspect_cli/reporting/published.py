@@ -9,6 +9,8 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+from inspect_cli.reporting.text import Said, Text, say, significant, together
+
 
 @dataclass(frozen=True)
 class Published:
@@ -19,10 +21,23 @@ class Published:
     """In a sentence without its full stop."""
     short: str
     """The number alone, for a narrow table; empty where there is none."""
+    table: str = ""
+    """Number of the table in the section."""
 
-    def cited(self, metric: str) -> str:
+    def cited(self, metric: str) -> Text:
         """The words with their place; of a row with several numbers, the one of the metric."""
-        return f"{NUMBERS.get(metric, self.words)} (§\u00a0{self.section})"
+        words: Text = Said(self.words)
+        if metric in NUMBERS:
+            value, unit = NUMBERS[metric]
+            words = together(significant(value, 6), f" {unit}")
+        if self.table:
+            return say(
+                "{words} (§\u00a0{section}, Table {table})",
+                words=words,
+                section=self.section,
+                table=self.table,
+            )
+        return say("{words} (§\u00a0{section})", words=words, section=self.section)
 
 
 SOURCE = "Bodie et al., RSS 2019"
@@ -56,15 +71,17 @@ PUBLISHED: dict[str, Published] = {
         "V-E", "precise tracking along all axes outside contact; no number is given", ""
     ),
     "A9.state": Published(
-        "V-F, Table IV",
+        "V-F",
         "RMSE x 0.0123 m, y 0.0106 m, roll 0.0577 rad, pitch 0.0488 rad, yaw 0.0129 rad; "
         "larger in motion than in hover",
         "",
+        "IV",
     ),
     "A9.force": Published(
-        "V-F, Table IV",
+        "V-F",
         "RMSE f_x 1.62 N, mostly the slow response to the step, f_y 0.91 N, f_z 0.93 N",
         "",
+        "IV",
     ),
     "A9.stable": Published(
         "V-F",
@@ -87,15 +104,15 @@ TABLE_IV: dict[str, tuple[str, float, str]] = {
 called there, the number, its unit. The row of z is not legible in the table."""
 
 
-NUMBERS: dict[str, str] = {
-    "slide.distance_m": "0.53 m",
-    "slide.speed_mean_mps": "0.17 m/s",
-    "estimation.expected_rmse_x_m": "0.0123 m",
-    "estimation.expected_rmse_y_m": "0.0106 m",
-    "estimation.expected_rmse_yaw_rad": "0.0129 rad",
-    **{metric: f"{value:g} {unit}" for metric, (_, value, unit) in TABLE_IV.items()},
+NUMBERS: dict[str, tuple[float, str]] = {
+    "slide.distance_m": (0.53, "m"),
+    "slide.speed_mean_mps": (0.17, "m/s"),
+    "estimation.expected_rmse_x_m": (0.0123, "m"),
+    "estimation.expected_rmse_y_m": (0.0106, "m"),
+    "estimation.expected_rmse_yaw_rad": (0.0129, "rad"),
+    **{metric: (value, unit) for metric, (_, value, unit) in TABLE_IV.items()},
 }
-"""The number that a metric answers, where a row has several."""
+"""The number that a metric answers with its unit, where a row has several."""
 
 
 OTHERS: dict[tuple[str, str], str] = {
@@ -114,7 +131,10 @@ def number_of(ref: str | None, metric: str) -> str:
         return ""
     if (ref, metric) in OTHERS:
         return OTHERS[ref, metric]
-    return published.short or NUMBERS.get(metric, "")
+    if published.short or metric not in NUMBERS:
+        return published.short
+    value, unit = NUMBERS[metric]
+    return f"{value:g} {unit}"
 
 
 def published_of(ref: str | None) -> Published | None:

@@ -26,7 +26,7 @@ def study_html(study: StudyResult, explained: str, figure: Figure) -> str:
     return page(f"{study.title} – study", _header(study), sections)
 
 
-def _header(study: StudyResult) -> Markup:
+def _header(study: StudyResult) -> list[Block]:
     facts = [
         ("Mission", study.mission),
         ("Platform", study.platform),
@@ -42,7 +42,7 @@ def _header(study: StudyResult) -> Markup:
     return joined(kicker, element("h1", study.title), definitions(facts))
 
 
-def _shortfalls(study: StudyResult) -> Markup:
+def _shortfalls(study: StudyResult) -> list[Block]:
     if not study.shortfalls:
         return Markup("")
     items = (element("li", text) for text in study.shortfalls)
@@ -51,7 +51,7 @@ def _shortfalls(study: StudyResult) -> Markup:
     )
 
 
-def _numbers(study: StudyResult) -> Markup:
+def _numbers(study: StudyResult) -> list[Block]:
     quantities = [Column(q.symbol, q.unit, numeric=True) for q in study.quantities]
     metrics = [Column(_lines(c.heading), _unit(c.unit), numeric=True) for c in study.columns]
     rows = [
@@ -74,7 +74,7 @@ def _as_it_stands(study: StudyResult, variant: StudyVariant) -> bool:
     return all(variant.values[q.name] == q.base for q in study.quantities)
 
 
-def _lines(heading: str) -> Markup:
+def _lines(heading: str) -> list[Block]:
     """A heading broken at its commas, for a narrow column."""
     first, *others = heading.split(", ")
     return joined(first, *(joined(Markup("<br>"), other) for other in others))
@@ -84,7 +84,7 @@ def _unit(unit: str) -> str:
     return "" if unit == "1" else unit
 
 
-def _flights(study: StudyResult) -> Markup:
+def _flights(study: StudyResult) -> list[Block]:
     rows = [
         [
             element("code", variant.folder),
@@ -94,9 +94,9 @@ def _flights(study: StudyResult) -> Markup:
         for variant in study.variants
     ]
     columns = [
-        Column("Run's folder beside this page"),
-        Column("Status"),
-        Column("Checks of the mission that this variant misses", prose=True),
+        Column(say("Run's folder beside this page")),
+        Column(say("Status")),
+        Column(say("Checks of the mission that this variant misses"), prose=True),
     ]
     caption = "Each is a run of its own: “inspect report” makes its page."
     return table(caption, columns, rows)

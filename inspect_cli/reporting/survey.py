@@ -70,7 +70,7 @@ def survey_html(
     return page(f"{title} – inspection report", header(log, result, works, title), sections)
 
 
-def _coverage(survey: CoveragePlan, plan: Plan, points: Sequence[ReadPoint]) -> Markup:
+def _coverage(survey: CoveragePlan, plan: Plan, points: Sequence[ReadPoint]) -> list[Block]:
     added = [t.label for s in survey.sorties if s.added for t in s.plan.targets]
     sentences = [
         _extent(survey),
@@ -99,7 +99,7 @@ def _extent(survey: CoveragePlan) -> str:
     return f"{survey.points} points were planned in {len(survey.sorties)} {many}; {out}."
 
 
-def _skipped_table(skipped: Sequence[Skipped]) -> Markup:
+def _skipped_table(skipped: Sequence[Skipped]) -> list[Block]:
     if not skipped:
         return Markup("")
     rows = [
@@ -107,29 +107,29 @@ def _skipped_table(skipped: Sequence[Skipped]) -> Markup:
         for point in skipped
     ]
     columns = [
-        Column("Point"),
-        Column("Surface"),
+        Column(say("Point")),
+        Column(say("Surface")),
         Column("u", "m", numeric=True),
         Column("v", "m", numeric=True),
-        Column("Reason", prose=True),
+        Column(say("Reason"), prose=True),
     ]
     return table("Points that were left out, and why.", columns, rows)
 
 
-def _sorties(survey: CoveragePlan, result: Result, flown: Sequence[Result]) -> Markup:
+def _sorties(survey: CoveragePlan, result: Result, flown: Sequence[Result]) -> list[Block]:
     results = [*flown, *[None] * (len(survey.sorties) - len(flown))]
     rows = [_sortie_row(s, r) for s, r in zip(survey.sorties, results, strict=True)]
     columns = [
-        Column("Sortie"),
-        Column("Status"),
-        Column("Points", numeric=True),
-        Column("Valid", numeric=True),
-        Column("Time planned", "s", numeric=True),
-        Column("flown", "s", numeric=True),
-        Column("Energy planned", "Wh", numeric=True),
-        Column("flown", "Wh", numeric=True),
-        Column("Planned / flown", numeric=True),
-        Column("Remark", prose=True),
+        Column(say("Sortie")),
+        Column(say("Status")),
+        Column(say("Points"), numeric=True),
+        Column(say("Valid"), numeric=True),
+        Column(say("Time planned"), "s", numeric=True),
+        Column(say("flown"), "s", numeric=True),
+        Column(say("Energy planned"), "Wh", numeric=True),
+        Column(say("flown"), "Wh", numeric=True),
+        Column(say("Planned / flown"), numeric=True),
+        Column(say("Remark"), prose=True),
     ]
     caption = (
         "The sorties with their own reports. Planned energy is by the planner's momentum theory, "
@@ -173,6 +173,6 @@ def _value(result: Result, name: str) -> float | None:
     return metric.value if metric else None
 
 
-def _provenance(log: RunLog, result: Result, plan: Plan) -> Markup:
+def _provenance(log: RunLog, result: Result, plan: Plan) -> list[Block]:
     note = "Attachments and versions are those of the first sortie; all fly with the same."
     return joined(element("p", note), provenance(log, result, plan))

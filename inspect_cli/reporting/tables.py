@@ -8,23 +8,28 @@ from collections.abc import Sequence
 from inspect_cli.log.foxglove import Event
 from inspect_cli.log.reader import RunLog
 from inspect_cli.metrics.catalogue import METRICS
-from inspect_cli.reporting.markup import Markup, element, joined
+from inspect_cli.reporting.content import Block, Column, Folded, Table
 from inspect_cli.reporting.points import ReadPoint
-from inspect_cli.reporting.table import (
+from inspect_cli.reporting.recorded import recorded
+from inspect_cli.reporting.text import (
     NOTHING,
-    Column,
-    chip,
+    Chip,
+    Said,
+    Text,
+    code,
     number,
+    say,
+    separated,
     significant,
-    table,
+    together,
 )
 from inspect_cli.schema.plan import Plan
 from inspect_cli.schema.result import PointResult, Result
 
 ASTM_ROWS = (
-    ("passive", "E > −200 mV", "more than 90 % that no reinforcement corrodes"),
-    ("uncertain", "−350 mV ≤ E ≤ −200 mV", "not decided by the potential"),
-    ("active", "E < −350 mV", "more than 90 % that reinforcement corrodes"),
+    ("passive", "E > −200 mV", say("more than 90 % that no reinforcement corrodes")),
+    ("uncertain", "−350 mV ≤ E ≤ −200 mV", say("not decided by the potential")),
+    ("active", "E < −350 mV", say("more than 90 % that reinforcement corrodes")),
 )
 QUIET_LEVELS = ("debug", "info")
 MANY_EVENTS = 12
@@ -39,21 +44,21 @@ TRUE_FIELDS = (
 )
 
 
-def points_table(points: Sequence[ReadPoint]) -> Markup:
+def points_table(points: Sequence[ReadPoint]) -> list[Block]:
     """Every point: where, what was read, what it means, how it was touched."""
     columns = [
-        Column("Point"),
-        Column("Surface"),
+        Column(say("Point")),
+        Column(say("Surface")),
         Column("u", "m", numeric=True),
         Column("v", "m", numeric=True),
-        Column("Potential", "mV CSE", numeric=True),
-        Column("ASTM C876"),
-        Column("Resistance", "Ω", numeric=True),
-        Column("Resistivity", "Ω·m", numeric=True),
-        Column("Corrosion", "combined"),
-        Column("Probe force", "N", numeric=True),
-        Column("Contact", "s", numeric=True),
-        Column("Validity", prose=True),
+        Column(say("Potential"), "mV CSE", numeric=True),
+        Column(say("ASTM C876")),
+        Column(say("Resistance"), "Ω", numeric=True),
+        Column(say("Resistivity"), "Ω·m", numeric=True),
+        Column(say("Corrosion"), "combined"),
+        Column(say("Probe force"), "N", numeric=True),
+        Column(say("Contact"), "s", numeric=True),
+        Column(say("Validity"), prose=True),
     ]
     return table("Readings by point.", columns, [_point_row(p) for p in points], wide=True)
 
@@ -77,21 +82,21 @@ def _point_row(p: ReadPoint) -> list[str]:
     ]
 
 
-def truth_table(points: Sequence[ReadPoint]) -> Markup:
+def truth_table(points: Sequence[ReadPoint]) -> list[Block]:
     """What a simulation knows of each point beside what was read; empty without truth."""
     if all(getattr(p.point, field) is None for p in points for field in TRUE_FIELDS):
         return Markup("")
     columns = [
-        Column("Point"),
-        Column("Potential read", "mV CSE", numeric=True),
-        Column("true", "mV CSE", numeric=True),
-        Column("Resistivity read", "Ω·m", numeric=True),
-        Column("true", "Ω·m", numeric=True),
-        Column("Corrosion read"),
-        Column("true"),
-        Column("Normal force", "N, mean of last 2 s", numeric=True),
-        Column("Peak", "N", numeric=True),
-        Column("Off target", "mm", numeric=True),
+        Column(say("Point")),
+        Column(say("Potential read"), "mV CSE", numeric=True),
+        Column(say("true"), "mV CSE", numeric=True),
+        Column(say("Resistivity read"), "Ω·m", numeric=True),
+        Column(say("true"), "Ω·m", numeric=True),
+        Column(say("Corrosion read")),
+        Column(say("true")),
+        Column(say("Normal force"), "N, mean of last 2 s", numeric=True),
+        Column(say("Peak"), "N", numeric=True),
+        Column(say("Off target"), "mm", numeric=True),
     ]
     return table(
         "Readings against the truth of the simulation, which no part of the vehicle could see.",
@@ -125,7 +130,7 @@ def _class_chip(name: str | None) -> str:
     return chip(name, kind)
 
 
-def classes_table(points: Sequence[ReadPoint]) -> Markup:
+def classes_table(points: Sequence[ReadPoint]) -> list[Block]:
     """How many valid readings fall in each class of ASTM C876."""
     counts = Counter[str](p.point.astm_class for p in points if p.point.astm_class is not None)
     total = sum(counts.values())
@@ -142,26 +147,26 @@ def classes_table(points: Sequence[ReadPoint]) -> Markup:
     invalid = sum(1 for p in points if p.point.astm_class is None)
     rows.append(["invalid", NOTHING, "no value; not counted in the shares", str(invalid), NOTHING])
     columns = [
-        Column("Class"),
-        Column("Potential against CSE"),
-        Column("Probability at the time of measurement", prose=True),
-        Column("Readings", numeric=True),
-        Column("Share", numeric=True),
+        Column(say("Class")),
+        Column(say("Potential against CSE")),
+        Column(say("Probability at the time of measurement"), prose=True),
+        Column(say("Readings"), numeric=True),
+        Column(say("Share"), numeric=True),
     ]
     return table("Classes of ASTM C876 (numeric magnitude technique).", columns, rows)
 
 
-def verdicts_table(points: Sequence[ReadPoint]) -> Markup:
+def verdicts_table(points: Sequence[ReadPoint]) -> list[Block]:
     """How many valid readings have each combined verdict, and which."""
     rows = []
     for name in CORROSION_ROWS:
         own = [p.point.label for p in points if p.point.corrosion == name]
         rows.append([_class_chip(name), str(len(own)), ", ".join(own) or NOTHING])
-    columns = [Column("Corrosion"), Column("Readings", numeric=True), Column("Points", prose=True)]
+    columns = [Column(say("Corrosion")), Column(say("Readings"), numeric=True), Column(say("Points"), prose=True)]
     return table("Combined verdict of potential and resistivity.", columns, rows)
 
 
-def metrics_table(caption: str, result: Result, groups: Sequence[str]) -> Markup:
+def metrics_table(caption: str, result: Result, groups: Sequence[str]) -> list[Block]:
     """The result's metrics of some groups, the part of a name before its dot; empty without."""
     rows = [
         [
@@ -176,10 +181,10 @@ def metrics_table(caption: str, result: Result, groups: Sequence[str]) -> Markup
     if not rows:
         return Markup("")
     columns = [
-        Column("Metric", prose=True),
-        Column("Value", numeric=True),
-        Column("Unit"),
-        Column("Name"),
+        Column(say("Metric"), prose=True),
+        Column(say("Value"), numeric=True),
+        Column(say("Unit")),
+        Column(say("Name")),
     ]
     return table(caption, columns, rows)
 
@@ -195,7 +200,7 @@ def meaning(metric: str) -> str:
     return spec.meaning if spec else ""
 
 
-def fits_table(plan: Plan) -> Markup:
+def fits_table(plan: Plan) -> list[Block]:
     """How well each fitted surface explains its points."""
     rows = []
     for surface in plan.surfaces:
@@ -216,13 +221,13 @@ def fits_table(plan: Plan) -> Markup:
             ]
         )
     columns = [
-        Column("Surface"),
-        Column("Shape"),
-        Column("Source and method", prose=True),
-        Column("Points", numeric=True),
-        Column("Inliers", "%", numeric=True),
-        Column("RMS", "mm", numeric=True),
-        Column("Standard deviations of the parameters", prose=True),
+        Column(say("Surface")),
+        Column(say("Shape")),
+        Column(say("Source and method"), prose=True),
+        Column(say("Points"), numeric=True),
+        Column(say("Inliers"), "%", numeric=True),
+        Column(say("RMS"), "mm", numeric=True),
+        Column(say("Standard deviations of the parameters"), prose=True),
     ]
     return table("Surfaces as the planner believed them.", columns, rows)
 
@@ -235,7 +240,7 @@ def _deviation(parameter: str, sd: float) -> str:
     return f"{name.replace('_', ' ')} ± {significant(1e3 * sd, 2)} m{unit}"
 
 
-def events_table(log: RunLog) -> Markup:
+def events_table(log: RunLog) -> list[Block]:
     """What the vehicle said during the flight; a long list is folded but for its warnings."""
     if not log.events:
         return Markup("")
@@ -250,7 +255,7 @@ def events_table(log: RunLog) -> Markup:
     return joined(_events("Warnings.", warnings[:MOST_EVENTS]) if warnings else "", folded)
 
 
-def _events(caption: str, events: Sequence[Event]) -> Markup:
+def _events(caption: str, events: Sequence[Event]) -> list[Block]:
     rows = [[number(event.t_s, 2), event.level, event.text] for event in events]
-    columns = [Column("Time", "s", numeric=True), Column("Level"), Column("Event", prose=True)]
+    columns = [Column(say("Time"), "s", numeric=True), Column(say("Level")), Column(say("Event"), prose=True)]
     return table(caption, columns, rows)

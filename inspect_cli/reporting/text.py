@@ -52,7 +52,7 @@ class Marked:
     """A piece set apart from the text around it."""
 
     text: Text
-    role: Literal["strong", "code"]
+    role: Literal["strong", "code", "sub"]
 
 
 @dataclass(frozen=True)
@@ -118,9 +118,13 @@ def together(*parts: Text) -> Joined:
 
 def sentences(parts: Iterable[Text]) -> Joined:
     """Sentences with a blank between each two."""
+    return separated(parts, " ")
+
+
+def separated(parts: Iterable[Text], sign: str) -> Joined:
+    """The pieces that say something, with ``sign`` between each two."""
     kept = [part for part in parts if part]
-    spaced = [piece for part in kept for piece in (" ", part)]
-    return Joined(tuple(spaced[1:]))
+    return Joined(tuple(piece for part in kept for piece in (sign, part))[1:])
 
 
 def strong(text: Text) -> Marked:
@@ -131,6 +135,12 @@ def strong(text: Text) -> Marked:
 def code(text: str) -> Marked:
     """A name as programs know it."""
     return Marked(text, "code")
+
+
+def symbol(text: str) -> Text:
+    """A symbol of a formula: ``f_x`` with its index below the line."""
+    base, _, index = text.partition("_")
+    return together(base, Marked(index, "sub")) if index else text
 
 
 def exists(value: float | None) -> bool:

@@ -87,3 +87,8 @@ class Result(Strict):
         """Whether the flight was completed and no check failed or was left unmeasured."""
         missed = any(check.verdict in ("fail", "not_measured") for check in self.checks)
         return self.status == "completed" and not missed
+
+    def value(self, metric: str) -> float | None:
+        """A metric's value; None where there is none."""
+        found = self.metrics.get(metric)
+        return found.value if found else None
