@@ -4,24 +4,35 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from inspect_cli.reporting.markup import Markup, element, joined
+from inspect_cli.reporting.content import Column, Table
 from inspect_cli.reporting.published import SOURCE, published_of
-from inspect_cli.reporting.table import NOTHING, Column, chip, significant, table
+from inspect_cli.reporting.recorded import recorded
 from inspect_cli.reporting.tables import meaning, unit_shown
-from inspect_cli.schema.result import Check
+from inspect_cli.reporting.text import (
+    NOTHING,
+    Chip,
+    Text,
+    code,
+    say,
+    sentences,
+    separated,
+    significant,
+    together,
+)
+from inspect_cli.schema.result import Check, Verdict
 
-VERDICT_WORDS = {
-    "pass": "✓ pass",
-    "fail": "✗ fail",
-    "fail-known": "! known failure",
-    "not_measured": "– not measured",
+VERDICT_WORDS: dict[Verdict, Text] = {
+    "pass": say("✓ pass"),
+    "fail": say("✗ fail"),
+    "fail-known": say("! known failure"),
+    "not_measured": say("– not measured"),
 }
 
 
-def checks_table(checks: Sequence[Check]) -> list[Block]:
+def checks_table(checks: Sequence[Check]) -> Table:
     """Every acceptance entry with its bounds, the published row it answers, and our value."""
     published = any(published_of(check.ref) for check in checks)
-    remarked = any(_remark(check) for check in checks)
+    remarked = any(check.over or check.reason for check in checks)
     columns = [
         Column(say("Check"), prose=True),
         Column(say("Reference")),
@@ -32,38 +43,42 @@ def checks_table(checks: Sequence[Check]) -> list[Block]:
         Column(say("Verdict")),
         *([Column(say("Remark"), prose=True)] if remarked else []),
     ]
-    source = f" Published: {SOURCE}." if published else ""
-    return table(
+    what = say(
         "Acceptance checks: what the mission requires, the row of the ledger of published results "
-        f"that a check answers for, and what this flight measured.{source}",
-        columns,
-        [_check_row(check, published=published, remarked=remarked) for check in checks],
+        "that a check answers for, and what this flight measured."
     )
+    source = say("Published: {source}.", source=SOURCE) if published else ""
+    rows = [_check_row(check, published=published, remarked=remarked) for check in checks]
+    return Table(sentences([what, source]), columns, rows)
 
 
-def _check_row(check: Check, *, published: bool, remarked: bool) -> list[str]:
+def _check_row(check: Check, *, published: bool, remarked: bool) -> list[Text]:
     known = published_of(check.ref)
     return [
-        joined(meaning(check.metric), Markup(" "), element("code", check.metric)),
+        together(meaning(check.metric), " ", code(check.metric)),
         check.ref or NOTHING,
         *([known.cited(check.metric) if known else NOTHING] if published else []),
         bounds(check.min, check.max),
         significant(check.value),
         unit_shown(check.unit),
-        chip(VERDICT_WORDS[check.verdict], check.verdict),
+        Chip(VERDICT_WORDS[check.verdict], check.verdict),
         *([_remark(check)] if remarked else []),
     ]
 
 
-def _remark(check: Check) -> str:
-    over = f"relative to {check.over}" if check.over else ""
-    return "; ".join(part for part in (over, check.reason) if part)
+def _remark(check: Check) -> Text:
+    """What a value is relative to, and why it is missing; a known failure in its author's words."""
+    over = say("relative to {metric}", metric=check.over) if check.over else ""
+    ours = check.verdict == "not_measured"
+    return separated([over, recorded(check.reason) if ours else check.reason], "; ")
 
 
-def bounds(low: float | None, high: float | None) -> str:
-    """A required interval in words: ≥, ≤, = or both ends."""
+def bounds(low: float | None, high: float | None) -> Text:
+    """A required interval in signs: ≥, ≤, = or both ends."""
     if low is not None and high is not None:
         if low == high:
-            return f"= {significant(low)}"
-        return f"{significant(low)} … {significant(high)}"
-    return f"≥ {significant(low)}" if low is not None else f"≤ {significant(high)}"
+            return together("= ", significant(low))
+        return together(significant(low), " … ", significant(high))
+    if low is not None:
+        return together("≥ ", significant(low))
+    return together("≤ ", significant(high))

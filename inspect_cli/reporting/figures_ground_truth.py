@@ -13,8 +13,8 @@ from inspect_cli.log.reader import RunLog
 from inspect_cli.metrics.flight import Flight, NotMeasured
 from inspect_cli.metrics.force_sensor import signal
 from inspect_cli.records import Estimate, Odometry, Reference, State, WallForce
+from inspect_cli.reporting.content import Block, Column, Table
 from inspect_cli.reporting.figure import Figure
-from inspect_cli.reporting.markup import Markup
 from inspect_cli.reporting.palette import (
     ESTIMATE,
     ESTIMATION_ERROR,
@@ -24,13 +24,14 @@ from inspect_cli.reporting.palette import (
     TRUTH,
 )
 from inspect_cli.reporting.published import SOURCE, TABLE_IV
+from inspect_cli.reporting.recorded import recorded
 from inspect_cli.reporting.rows import (
     attitude_difference_mrad,
     held_at,
     rows_of,
     turned_to_world,
 )
-from inspect_cli.reporting.table import NOTHING, Column, significant, table
+from inspect_cli.reporting.text import NOTHING, Text, indexed, say, significant
 from inspect_cli.reporting.timeline import Line, Panel, Timeline, alike, stacked
 from inspect_cli.schema.result import Result
 
@@ -118,15 +119,16 @@ def force_figure(flight: Flight, timeline: Timeline) -> Iterator[Figure]:
 
 def rmse_table(result: Result) -> list[Block]:
     """Our root mean square errors beside the published ones; nothing where none is measured."""
-    ours = {name: result.metrics.get(name) for name in TABLE_IV}
-    if all(metric is None or metric.value is None for metric in ours.values()):
-        return Markup("")
-    rows = []
-    for name, (symbol, published, unit) in TABLE_IV.items():
-        metric = ours[name]
-        value = metric.value if metric else None
+    ours = {name: result.value(name) for name in TABLE_IV}
+    if all(value is None for value in ours.values()):
+        return []
+    rows: list[list[Text]] = []
+    for name, (what, published, unit) in TABLE_IV.items():
+        value = ours[name]
         ratio = NOTHING if value is None else significant(value / published, 2)
-        rows.append([_symbol(symbol), significant(value, 3), significant(published), unit, ratio])
+        rows.append(
+            [indexed(what) if "_" in what else recorded(what), significant(value, 3), significant(published), unit, ratio]
+        )
     columns = [
         Column(say("Estimate")),
         Column(say("Ours, RMSE"), numeric=True),
@@ -134,17 +136,12 @@ def rmse_table(result: Result) -> list[Block]:
         Column(say("Unit")),
         Column(say("Ratio"), numeric=True),
     ]
-    return table(
-        f"Errors of the estimates beside Table IV of {SOURCE}: pose from take-off to landing, "
-        "roll, pitch and yaw against the body frame of the tracker, force against the filtered "
-        "sensor. That frame is turned against the body's by a constant of the platform that was "
-        "chosen from the published errors: where it is, roll and pitch agree by construction. The "
+    caption = say(
+        "Errors of the estimates beside Table IV of {source}: pose from take-off to landing, roll, "
+        "pitch and yaw against the body frame of the tracker, force against the filtered sensor. "
+        "That frame is turned against the body's by a constant of the platform that was chosen "
+        "from the published errors: where it is, roll and pitch agree by construction. The "
         "published row of z is not legible.",
-        columns,
-        rows,
+        source=SOURCE,
     )
-
-
-def _symbol(symbol: str) -> str:
-    base, _, index = symbol.partition("_")
-    return Markup(f"{base}<sub>{index}</sub>") if index else symbol
+    return [Table(caption, columns, rows)]

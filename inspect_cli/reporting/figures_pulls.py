@@ -14,8 +14,8 @@ from inspect_cli.log.reader import RunLog
 from inspect_cli.metrics.flight import Flight
 from inspect_cli.metrics.pull import Pull, pulls
 from inspect_cli.records import Estimate, Reference, State, TrueDisturbance
+from inspect_cli.reporting.content import Column, Table
 from inspect_cli.reporting.figure import Figure
-from inspect_cli.reporting.markup import Markup
 from inspect_cli.reporting.palette import (
     BELIEVED_ERROR,
     CORD,
@@ -29,7 +29,7 @@ from inspect_cli.reporting.rows import (
     rows_of,
     turned_to_body,
 )
-from inspect_cli.reporting.table import Column, number, table
+from inspect_cli.reporting.text import Text, number, say
 from inspect_cli.reporting.timeline import (
     Line,
     Panel,
@@ -148,7 +148,7 @@ def _cord_wrench(log: RunLog) -> tuple[Vector, Points] | None:
     return felt["t_s"], np.hstack(turned)
 
 
-def pull_table(flight: Flight) -> list[Block]:
+def pull_table(flight: Flight) -> Table:
     """One row for each pull.
 
     Raises:
@@ -162,23 +162,21 @@ def pull_table(flight: Flight) -> list[Block]:
         Column(say("Along"), "mm", numeric=True),
         Column(say("Across"), "mm", numeric=True),
         Column(say("In z"), "mm", numeric=True),
-        Column(say("By attitude"), "mm at the tip", numeric=True),
+        Column(say("By attitude"), say("mm at the tip"), numeric=True),
         Column(say("Compliance"), "mm/N", numeric=True),
         Column(say("Yaw"), "rad", numeric=True),
-        Column(say("Torque"), "N·m about z_B", numeric=True),
+        Column(say("Torque"), say("N·m about z_B"), numeric=True),
     ]
-    return table(
+    caption = say(
         "Pulls at the cord. Along, across and in z: the body's largest displacement in the "
         "direction of the cord's peak force, level and square to it, and up or down, from the "
         "beginning of the pull to three seconds after it. By attitude: how far the tip moved "
-        "because the body turned.",
-        columns,
-        rows,
-        wide=True,
+        "because the body turned."
     )
+    return Table(caption, columns, rows, wide=True)
 
 
-def _row(place: int, pull: Pull) -> list[str]:
+def _row(place: int, pull: Pull) -> list[Text]:
     return [
         str(place),
         number(pull.peak, 1),

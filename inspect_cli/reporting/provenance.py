@@ -5,8 +5,24 @@ from __future__ import annotations
 import hashlib
 
 from inspect_cli.log.reader import RunLog
-from inspect_cli.reporting.markup import Markup, element, joined
-from inspect_cli.reporting.table import NOTHING, Column, definitions, number, table
+from inspect_cli.reporting.content import (
+    Block,
+    Column,
+    Facts,
+    Heading,
+    Notes,
+    Paragraph,
+    Table,
+)
+from inspect_cli.reporting.text import (
+    NOTHING,
+    code,
+    number,
+    say,
+    sentences,
+    strong,
+    together,
+)
 from inspect_cli.schema.plan import Plan
 from inspect_cli.schema.result import Result
 
@@ -15,63 +31,55 @@ def provenance(log: RunLog, result: Result, plan: Plan) -> list[Block]:
     """Everything that is needed to compute the page again; it holds no time of day."""
     platform = log.platform()
     mission = log.mission()
-    facts = definitions(
+    facts = Facts(
         [
-            ("Mission", result.mission),
-            ("Platform", f"{result.platform} ({platform.kind})"),
-            ("Impedance profile", mission.impedance),
-            ("Estimation", mission.estimation),
-            ("Seed", NOTHING if result.seed is None else str(result.seed)),
-            ("Planned duration", f"{number(plan.duration_s, 1)} s"),
-            ("Planned energy", f"{number(plan.energy_wh, 1)} Wh"),
-            ("Planned path", f"{number(plan.path_m, 1)} m"),
+            (say("Mission"), result.mission),
+            (say("Platform"), f"{result.platform} ({platform.kind})"),
+            (say("Impedance profile"), mission.impedance),
+            (say("Estimation"), mission.estimation),
+            (say("Seed"), NOTHING if result.seed is None else str(result.seed)),
+            (say("Planned duration"), together(number(plan.duration_s, 1), " s")),
+            (say("Planned energy"), together(number(plan.energy_wh, 1), " Wh")),
+            (say("Planned path"), together(number(plan.path_m, 1), " m")),
         ]
     )
-    source = (
-        element("p", element("strong", "Source of the platform's numbers. "), platform.source)
-        if platform.source
-        else ""
-    )
-    return joined(facts, source, _warnings(plan), _versions(log), _files(log), _chosen(log))
+    source = strong(say("Source of the platform's numbers."))
+    sourced = [Paragraph(sentences([source, platform.source]))] if platform.source else []
+    return [facts, *sourced, *_warnings(plan), *_versions(log), _files(log), *_chosen(log)]
 
 
 def _warnings(plan: Plan) -> list[Block]:
     if not plan.warnings:
-        return Markup("")
-    items = (element("li", warning) for warning in plan.warnings)
-    return joined(element("h3", "Warnings of the planner"), element("ul", *items))
+        return []
+    return [Heading(say("Warnings of the planner")), Notes(plan.warnings)]
 
 
 def _versions(log: RunLog) -> list[Block]:
     if not log.versions:
-        return Markup("")
+        return []
     rows = [[name, version] for name, version in sorted(log.versions.items())]
-    return table(
-        "Versions of what computed the flight.", [Column(say("Software")), Column(say("Version"))], rows
-    )
+    columns = [Column(say("Software")), Column(say("Version"))]
+    return [Table(say("Versions of what computed the flight."), columns, rows)]
 
 
-def _files(log: RunLog) -> list[Block]:
+def _files(log: RunLog) -> Table:
     rows = [
-        [name, number(len(data), 0), element("code", hashlib.sha256(data).hexdigest())]
+        [name, number(len(data), 0), code(hashlib.sha256(data).hexdigest())]
         for name, data in sorted(log.attachments.items())
     ]
     columns = [
         Column(say("Attachment")),
-        Column(say("Size"), "bytes", numeric=True),
-        Column(say("SHA-256"), prose=True),
+        Column(say("Size"), say("bytes"), numeric=True),
+        Column("SHA-256", prose=True),
     ]
-    return table("Files that the log carries.", columns, rows)
+    return Table(say("Files that the log carries."), columns, rows)
 
 
 def _chosen(log: RunLog) -> list[Block]:
     """Numbers of the platform that no source gives, each with its reason."""
     chosen = log.platform().chosen
     if not chosen:
-        return Markup("")
+        return []
     rows = [[name, reason] for name, reason in sorted(chosen.items())]
-    return table(
-        "Numbers of the platform that no source gives, and why they were chosen.",
-        [Column(say("Number")), Column(say("Reason"), prose=True)],
-        rows,
-    )
+    caption = say("Numbers of the platform that no source gives, and why they were chosen.")
+    return [Table(caption, [Column(say("Number")), Column(say("Reason"), prose=True)], rows)]

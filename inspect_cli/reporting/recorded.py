@@ -28,6 +28,8 @@ RECORDED: tuple[Said, ...] = (
     say("only the first {n} sorties were flown"),
     # Classes of readings.
     *(say("passive"), say("uncertain"), say("active"), say("none"), say("possible")),
+    # Angles of an attitude.
+    *(say("roll"), say("pitch"), say("yaw")),
     # Believed surfaces and the parameters of their fits.
     *(say("plane"), say("cylinder"), say("sphere"), say("given as a shape")),
     *(say("offset"), say("radius"), say("tilt"), say("tilt {n}"), say("center {name}")),

@@ -23,7 +23,7 @@ from inspect_cli.reporting.text import (
     significant,
     together,
 )
-from inspect_cli.schema.plan import Plan
+from inspect_cli.schema.plan import Plan, PlannedSurface
 from inspect_cli.schema.result import PointResult, Result
 
 ASTM_ROWS = (
@@ -44,7 +44,7 @@ TRUE_FIELDS = (
 )
 
 
-def points_table(points: Sequence[ReadPoint]) -> list[Block]:
+def points_table(points: Sequence[ReadPoint]) -> Table:
     """Every point: where, what was read, what it means, how it was touched."""
     columns = [
         Column(say("Point")),
@@ -52,20 +52,21 @@ def points_table(points: Sequence[ReadPoint]) -> list[Block]:
         Column("u", "m", numeric=True),
         Column("v", "m", numeric=True),
         Column(say("Potential"), "mV CSE", numeric=True),
-        Column(say("ASTM C876")),
+        Column("ASTM C876"),
         Column(say("Resistance"), "Ω", numeric=True),
         Column(say("Resistivity"), "Ω·m", numeric=True),
-        Column(say("Corrosion"), "combined"),
+        Column(say("Corrosion"), say("combined")),
         Column(say("Probe force"), "N", numeric=True),
         Column(say("Contact"), "s", numeric=True),
         Column(say("Validity"), prose=True),
     ]
-    return table("Readings by point.", columns, [_point_row(p) for p in points], wide=True)
+    return Table(say("Readings by point."), columns, [_point_row(p) for p in points], wide=True)
 
 
-def _point_row(p: ReadPoint) -> list[str]:
+def _point_row(p: ReadPoint) -> list[Text]:
     point = p.point
     u, v = point.uv_m or (None, None)
+    invalid = say("invalid: {reason}", reason=p.reason)
     return [
         point.label,
         p.surface or NOTHING,
@@ -78,14 +79,14 @@ def _point_row(p: ReadPoint) -> list[str]:
         _class_chip(point.corrosion),
         number(point.probe_force_n, 2),
         number(point.contact_s, 1),
-        "valid" if point.valid else chip(f"invalid: {point.reason}", "fail"),
+        say("valid") if point.valid else Chip(invalid, "fail"),
     ]
 
 
 def truth_table(points: Sequence[ReadPoint]) -> list[Block]:
-    """What a simulation knows of each point beside what was read; empty without truth."""
+    """What a simulation knows of each point beside what was read; nothing without truth."""
     if all(getattr(p.point, field) is None for p in points for field in TRUE_FIELDS):
-        return Markup("")
+        return []
     columns = [
         Column(say("Point")),
         Column(say("Potential read"), "mV CSE", numeric=True),
@@ -94,19 +95,17 @@ def truth_table(points: Sequence[ReadPoint]) -> list[Block]:
         Column(say("true"), "Ω·m", numeric=True),
         Column(say("Corrosion read")),
         Column(say("true")),
-        Column(say("Normal force"), "N, mean of last 2 s", numeric=True),
+        Column(say("Normal force"), say("N, mean of last 2 s"), numeric=True),
         Column(say("Peak"), "N", numeric=True),
         Column(say("Off target"), "mm", numeric=True),
     ]
-    return table(
-        "Readings against the truth of the simulation, which no part of the vehicle could see.",
-        columns,
-        [_truth_row(p.point) for p in points],
-        wide=True,
+    caption = say(
+        "Readings against the truth of the simulation, which no part of the vehicle could see."
     )
+    return [Table(caption, columns, [_truth_row(p.point) for p in points], wide=True)]
 
 
-def _truth_row(point: PointResult) -> list[str]:
+def _truth_row(point: PointResult) -> list[Text]:
     off_m = point.position_error_m
     return [
         point.label,
@@ -122,30 +121,31 @@ def _truth_row(point: PointResult) -> list[str]:
     ]
 
 
-def _class_chip(name: str | None) -> str:
+def _class_chip(name: str | None) -> Text:
     """The class in words with its colour; ``none`` corrosion has the passive class's."""
     if name is None:
         return NOTHING
     kind = {"none": "passive", "possible": "uncertain"}.get(name, name)
-    return chip(name, kind)
+    return Chip(recorded(name), kind)
 
 
-def classes_table(points: Sequence[ReadPoint]) -> list[Block]:
+def classes_table(points: Sequence[ReadPoint]) -> Table:
     """How many valid readings fall in each class of ASTM C876."""
     counts = Counter[str](p.point.astm_class for p in points if p.point.astm_class is not None)
     total = sum(counts.values())
-    rows = [
+    rows: list[list[Text]] = [
         [
-            chip(name, name),
+            _class_chip(name),
             limits,
             meaning,
-            str(counts[name]),
-            f"{100 * counts[name] / total:.0f} %" if total else NOTHING,
+            number(counts[name], 0),
+            together(number(100 * counts[name] / total, 0), " %") if total else NOTHING,
         ]
         for name, limits, meaning in ASTM_ROWS
     ]
     invalid = sum(1 for p in points if p.point.astm_class is None)
-    rows.append(["invalid", NOTHING, "no value; not counted in the shares", str(invalid), NOTHING])
+    not_counted = say("no value; not counted in the shares")
+    rows.append([say("invalid"), NOTHING, not_counted, number(invalid, 0), NOTHING])
     columns = [
         Column(say("Class")),
         Column(say("Potential against CSE")),
@@ -153,40 +153,45 @@ def classes_table(points: Sequence[ReadPoint]) -> list[Block]:
         Column(say("Readings"), numeric=True),
         Column(say("Share"), numeric=True),
     ]
-    return table("Classes of ASTM C876 (numeric magnitude technique).", columns, rows)
+    return Table(say("Classes of ASTM C876 (numeric magnitude technique)."), columns, rows)
 
 
-def verdicts_table(points: Sequence[ReadPoint]) -> list[Block]:
+def verdicts_table(points: Sequence[ReadPoint]) -> Table:
     """How many valid readings have each combined verdict, and which."""
-    rows = []
+    rows: list[list[Text]] = []
     for name in CORROSION_ROWS:
         own = [p.point.label for p in points if p.point.corrosion == name]
-        rows.append([_class_chip(name), str(len(own)), ", ".join(own) or NOTHING])
-    columns = [Column(say("Corrosion")), Column(say("Readings"), numeric=True), Column(say("Points"), prose=True)]
-    return table("Combined verdict of potential and resistivity.", columns, rows)
+        rows.append([_class_chip(name), number(len(own), 0), ", ".join(own) or NOTHING])
+    columns = [
+        Column(say("Corrosion")),
+        Column(say("Readings"), numeric=True),
+        Column(say("Points"), prose=True),
+    ]
+    return Table(say("Combined verdict of potential and resistivity."), columns, rows)
 
 
-def metrics_table(caption: str, result: Result, groups: Sequence[str]) -> list[Block]:
-    """The result's metrics of some groups, the part of a name before its dot; empty without."""
+def metrics_table(caption: Text, result: Result, groups: Sequence[str]) -> list[Block]:
+    """The result's metrics of some groups, the part of a name before its dot; nothing without."""
     rows = [
-        [
-            "; not measured: ".join(part for part in (meaning(name), metric.why) if part),
-            significant(metric.value),
-            unit_shown(metric.unit),
-            element("code", name),
-        ]
+        [_meaning(name, metric.why), significant(metric.value), unit_shown(metric.unit), code(name)]
         for name, metric in result.metrics.items()
         if name.split(".")[0] in groups
     ]
-    if not rows:
-        return Markup("")
     columns = [
         Column(say("Metric"), prose=True),
         Column(say("Value"), numeric=True),
         Column(say("Unit")),
         Column(say("Name")),
     ]
-    return table(caption, columns, rows)
+    return [Table(caption, columns, rows)] if rows else []
+
+
+def _meaning(name: str, why: str) -> Text:
+    if not why:
+        return meaning(name)
+    if name not in METRICS:
+        return recorded(why)
+    return say("{metric}; not measured: {why}", metric=meaning(name), why=recorded(why))
 
 
 def unit_shown(unit: str) -> str:
@@ -194,68 +199,72 @@ def unit_shown(unit: str) -> str:
     return "" if unit == "1" else unit
 
 
-def meaning(metric: str) -> str:
+def meaning(metric: str) -> Text:
     """What a metric is, by the catalogue; nothing for one that is not in it."""
     spec = METRICS.get(metric)
-    return spec.meaning if spec else ""
+    return Said(spec.meaning) if spec else ""
 
 
-def fits_table(plan: Plan) -> list[Block]:
+def fits_table(plan: Plan) -> Table:
     """How well each fitted surface explains its points."""
-    rows = []
-    for surface in plan.surfaces:
-        fit = surface.fit
-        if fit is None:
-            rows.append([surface.name, surface.shape.kind, "given", *[NOTHING] * 4])
-            continue
-        deviations = [_deviation(name, sd) for name, sd in fit.parameter_sd.items()]
-        rows.append(
-            [
-                surface.name,
-                surface.shape.kind,
-                f"{surface.source}; {fit.method}",
-                number(fit.points, 0),
-                number(100.0 * fit.inlier_share, 1),
-                number(1e3 * fit.rms_m, 2),
-                ", ".join(deviations) or NOTHING,
-            ]
-        )
     columns = [
         Column(say("Surface")),
         Column(say("Shape")),
         Column(say("Source and method"), prose=True),
         Column(say("Points"), numeric=True),
         Column(say("Inliers"), "%", numeric=True),
-        Column(say("RMS"), "mm", numeric=True),
+        Column("RMS", "mm", numeric=True),
         Column(say("Standard deviations of the parameters"), prose=True),
     ]
-    return table("Surfaces as the planner believed them.", columns, rows)
+    rows = [_fit_row(surface) for surface in plan.surfaces]
+    return Table(say("Surfaces as the planner believed them."), columns, rows)
 
 
-def _deviation(parameter: str, sd: float) -> str:
+def _fit_row(surface: PlannedSurface) -> list[Text]:
+    fit, shape = surface.fit, recorded(surface.shape.kind)
+    if fit is None:
+        return [surface.name, shape, say("given"), *[NOTHING] * 4]
+    deviations = [_deviation(name, sd) for name, sd in fit.parameter_sd.items()]
+    return [
+        surface.name,
+        shape,
+        f"{surface.source}; {fit.method}",
+        number(fit.points, 0),
+        number(100.0 * fit.inlier_share, 1),
+        number(1e3 * fit.rms_m, 2),
+        separated(deviations, ", ") if deviations else NOTHING,
+    ]
+
+
+def _deviation(parameter: str, sd: float) -> Text:
     """``offset_m`` and 1.8e-5 as "offset ± 0.018 mm"."""
     name, _, unit = parameter.rpartition("_")
     if unit not in ("m", "rad"):
-        return f"{parameter} ± {significant(sd, 2)}"
-    return f"{name.replace('_', ' ')} ± {significant(1e3 * sd, 2)} m{unit}"
+        return together(parameter, " ± ", significant(sd, 2))
+    return together(
+        recorded(name.replace("_", " ")), " ± ", significant(1e3 * sd, 2), f" m{unit}"
+    )
 
 
 def events_table(log: RunLog) -> list[Block]:
     """What the vehicle said during the flight; a long list is folded but for its warnings."""
     if not log.events:
-        return Markup("")
-    warnings = [event for event in log.events if event.level not in QUIET_LEVELS]
+        return []
     if len(log.events) <= MANY_EVENTS:
-        return _events("Events.", log.events)
-    folded = element(
-        "details",
-        element("summary", f"All {len(log.events)} events"),
-        _events("Events.", log.events[:MOST_EVENTS]),
-    )
-    return joined(_events("Warnings.", warnings[:MOST_EVENTS]) if warnings else "", folded)
+        return [_events(say("Events."), log.events)]
+    warnings = [event for event in log.events if event.level not in QUIET_LEVELS]
+    everything = _events(say("Events."), log.events[:MOST_EVENTS])
+    folded = Folded(say("All {n} events", n=number(len(log.events), 0)), [everything])
+    if not warnings:
+        return [folded]
+    return [_events(say("Warnings."), warnings[:MOST_EVENTS]), folded]
 
 
-def _events(caption: str, events: Sequence[Event]) -> list[Block]:
-    rows = [[number(event.t_s, 2), event.level, event.text] for event in events]
-    columns = [Column(say("Time"), "s", numeric=True), Column(say("Level")), Column(say("Event"), prose=True)]
-    return table(caption, columns, rows)
+def _events(caption: Text, events: Sequence[Event]) -> Table:
+    rows = [[number(event.t_s, 2), recorded(event.level), event.text] for event in events]
+    columns = [
+        Column(say("Time"), "s", numeric=True),
+        Column(say("Level")),
+        Column(say("Event"), prose=True),
+    ]
+    return Table(caption, columns, rows)

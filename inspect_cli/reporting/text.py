@@ -137,7 +137,7 @@ def code(text: str) -> Marked:
     return Marked(text, "code")
 
 
-def symbol(text: str) -> Text:
+def indexed(text: str) -> Text:
     """A symbol of a formula: ``f_x`` with its index below the line."""
     base, _, index = text.partition("_")
     return together(base, Marked(index, "sub")) if index else text
