@@ -53,9 +53,9 @@ def numbers(values: ArrayLike) -> Json:
     return {"dtype": "f4", "bdata": base64.b64encode(data).decode("ascii")}
 
 
-def words(text: str) -> str:
-    """A user's text for plotly, which reads tags and entities in any label."""
-    return html.escape(text, quote=False)
+def words(text: Text) -> Text:
+    """A user's text for plotly, which reads tags and entities in any label; ours stays."""
+    return html.escape(text, quote=False) if isinstance(text, str) else text
 
 
 def merged(base: Mapping[str, Any], extra: Mapping[str, Any]) -> Json:

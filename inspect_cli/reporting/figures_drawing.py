@@ -18,6 +18,7 @@ from inspect_cli.reporting.figure import Figure, Json, numbers
 from inspect_cli.reporting.figures_scene import FAR_M
 from inspect_cli.reporting.palette import REFERENCE, LineStyle, trial_style
 from inspect_cli.reporting.rows import attitude_difference_mrad
+from inspect_cli.reporting.text import count, number, say, sentences, together
 from inspect_cli.reporting.timeline import (
     Line,
     Mark,
@@ -136,10 +137,17 @@ def _in_the_plane(flight: Flight, drawing: int, trials: Sequence[Trial]) -> Figu
     }
     return Figure(
         f"drawing-{drawing + 1}",
-        f"The drawing in the plane of surface “{surface}”, seen from the side that was touched: "
-        "the reference of the first trial and the true tip of the tool in each, while it slid; "
-        "equal scales.",
-        f"Plan view of a drawing: reference and {len(trials)} trials.",
+        say(
+            "The drawing in the plane of surface “{surface}”, seen from the side that was touched: "
+            "the reference of the first trial and the true tip of the tool in each, while it slid; "
+            "equal scales.",
+            surface=surface or "",
+        ),
+        count(
+            len(trials),
+            "Plan view of a drawing: reference and one trial.",
+            "Plan view of a drawing: reference and {n} trials.",
+        ),
         traces,
         layout,
         FRAME_PX + int(np.clip(WIDTH_PX * height / width, 220.0, 560.0)),
@@ -175,7 +183,7 @@ def _path(uv: Points, style: LineStyle, *, shown: bool) -> Json:
         "x": numbers(uv[:, 0]),
         "y": numbers(uv[:, 1]),
         "line": {"color": style.colour, "dash": style.dash, "width": style.width},
-        "hovertemplate": f"{style.label}<br>u %{{x:.4f}} m, v %{{y:.4f}} m<extra></extra>",
+        "hovertemplate": together(style.label, "<br>u %{x:.4f} m, v %{y:.4f} m<extra></extra>"),
     }
 
 
@@ -188,15 +196,17 @@ def _apart(flight: Flight, drawing: int) -> Iterator[Figure]:
     if not found:
         return
     layout: Json = {
-        "xaxis": {"title": {"text": "way along the reference (m)"}},
-        "yaxis": {"title": {"text": "apart in the plane (mm)"}, "rangemode": "tozero"},
+        "xaxis": {"title": {"text": say("way along the reference (m)")}},
+        "yaxis": {"title": {"text": say("apart in the plane (mm)")}, "rangemode": "tozero"},
         "hovermode": "closest",
     }
     yield Figure(
         f"drawing-{drawing + 1}-apart",
-        "How far two trials lie apart in the plane, at equal progress along the reference. Strokes "
-        "follow each other.",
-        "Distance in the plane between two trials along the drawing.",
+        say(
+            "How far two trials lie apart in the plane, at equal progress along the reference. "
+            "Strokes follow each other."
+        ),
+        say("Distance in the plane between two trials along the drawing."),
         list(_apart_lines(found)),
         layout,
         240,
@@ -216,7 +226,7 @@ def _apart_lines(found: Sequence[Repeat]) -> Iterator[Json]:
         yield {
             "type": "scatter",
             "mode": "lines",
-            "name": f"trials {pair[0] + 1} and {pair[1] + 1}",
+            "name": say("trials {a} and {b}", a=number(pair[0] + 1, 0), b=number(pair[1] + 1, 0)),
             "showlegend": True,
             "x": numbers(np.concatenate(arcs)),
             "y": numbers(np.concatenate(values)),
@@ -255,7 +265,7 @@ def _over_time(flight: Flight, drawing: int, trials: Sequence[Trial]) -> Iterato
     ]
     felt = flight.log.rows(Estimate)
     wrench = None if felt is None else flight.on_state_ticks(Estimate)["wrench_B"]
-    for name, above, first, symbol, unit, words in (
+    for name, above, first, symbol, unit, (told, description) in (
         ("position", position, 0, "F", "N", POSITION),
         ("attitude", alike(attitude, window), 3, "τ", "N·m", ATTITUDE),
     ):
@@ -271,22 +281,30 @@ def _over_time(flight: Flight, drawing: int, trials: Sequence[Trial]) -> Iterato
         ]
         yield stacked(
             f"drawing-{drawing + 1}-{name}",
-            words + " Shaded: contact in the first trial; (a) touch, (b) release.",
-            f"{name.capitalize()} and external {'force' if first == 0 else 'torque'} over time.",
+            sentences([told, SHADED]),
+            description,
             [*above, *alike(below, window)],
             timeline,
         )
 
 
 POSITION = (
-    "Position of the tool's tip in the world, reference and truth, and the estimated external "
-    "force in the axes of the body, over the time since each trial's first touch. Across the "
-    "surface the reference lies behind it on purpose."
+    say(
+        "Position of the tool's tip in the world, reference and truth, and the estimated external "
+        "force in the axes of the body, over the time since each trial's first touch. Across the "
+        "surface the reference lies behind it on purpose."
+    ),
+    say("Position and external force over time."),
 )
 ATTITUDE = (
-    "Attitude error of the body as a rotation vector from reference to truth, and the estimated "
-    "external torque about the body's origin, over the time since each trial's first touch."
+    say(
+        "Attitude error of the body as a rotation vector from reference to truth, and the "
+        "estimated external torque about the body's origin, over the time since each trial's "
+        "first touch."
+    ),
+    say("Attitude and external torque over time."),
 )
+SHADED = say("Shaded: contact in the first trial; (a) touch, (b) release.")
 
 
 def _of_trials(
@@ -311,5 +329,5 @@ def _timeline(trial: Trial, t_s: Vector) -> Timeline:
         for first, end in stretches(inside):
             phases.append(Phase(float(t_s[first]) - start, float(t_s[end - 1]) - start, ""))
     marks = (Mark(0.0, "(a)"), Mark(trial.end_s(t_s) - start, "(b)"))
-    title = "time since the first touch of the trial (s)"
+    title = say("time since the first touch of the trial (s)")
     return Timeline(phases=tuple(phases), marks=marks, title=title, of_the_log=False)

@@ -28,30 +28,49 @@ from inspect_cli.reporting.palette import (
     LineStyle,
 )
 from inspect_cli.reporting.rows import held_at, rows_of, turned_to_world
+from inspect_cli.reporting.text import Text, say, together
 from inspect_cli.reporting.timeline import Line, Panel, Timeline, stacked
 from inspect_cli.schema.plan import Plan
 from inspect_cli.spatial.arrays import Points, Structured, Vector
 
 AT_A_SURFACE = (Mode.APPROACH, Mode.PRESS, Mode.SLIDE, Mode.RETREAT)
+FORCE = (
+    say(
+        "External force about the body's origin, in the body frame: observer against truth. "
+        "The axes are scaled to the time between take-off and landing."
+    ),
+    say("Three components of the external force over time, estimated and true."),
+)
+TORQUE = (
+    say(
+        "External torque about the body's origin, in the body frame: observer against truth. "
+        "The axes are scaled to the time between take-off and landing."
+    ),
+    say("Three components of the external torque over time, estimated and true."),
+)
 
 
 def force_figures(log: RunLog, plan: Plan, timeline: Timeline) -> Iterator[Figure]:
     """The contact force three ways, and the estimated against the true wrench."""
     yield from _drawn(
         "force",
-        "Force along the surface's normal, pressing is positive. The estimate is the momentum "
-        "observer's force along the planned normal, drawn near a surface; it holds all other "
-        "external force too.",
-        "Normal contact force over time: true, by the probe's load cell, and estimated.",
-        [Panel("normal force (N)", _normal_forces(log, plan), height_px=240, off_ground=True)],
+        say(
+            "Force along the surface's normal, pressing is positive. The estimate is the momentum "
+            "observer's force along the planned normal, drawn near a surface; it holds all other "
+            "external force too."
+        ),
+        say("Normal contact force over time: true, by the probe's load cell, and estimated."),
+        [Panel(say("normal force (N)"), _normal_forces(log, plan), height_px=240, off_ground=True)],
         timeline,
     )
-    for name, first, unit, symbol in (("force", 0, "N", "F"), ("torque", 3, "N·m", "τ")):
+    for name, first, unit, symbol, (caption, description) in (
+        ("force", 0, "N", "F", FORCE),
+        ("torque", 3, "N·m", "τ", TORQUE),
+    ):
         yield from _drawn(
             f"wrench-{name}",
-            f"External {name} about the body's origin, in the body frame: observer against truth. "
-            "The axes are scaled to the time between take-off and landing.",
-            f"Three components of the external {name} over time, estimated and true.",
+            caption,
+            description,
             [
                 Panel(
                     f"{symbol}<sub>{axis}</sub> ({unit})",
@@ -71,20 +90,24 @@ def surface_figures(log: RunLog, timeline: Timeline) -> Iterator[Figure]:
         return
     usable = surface["valid"] > 0.5
     distances = [Line(surface["t_s"], np.where(usable, surface["distance"], np.nan), ESTIMATE)]
-    panels = [Panel("distance (m)", distances)]
+    panels = [Panel(say("distance (m)"), distances)]
     if contact is not None:
         near = np.where(contact["surface"] >= 0, contact["distance"], np.nan)
         distances.insert(0, Line(contact["t_s"], near, TRUTH))
         true_n_W = held_at(contact, surface["t_s"])["n_W"]
         angle = np.where(usable, _angle_deg(surface["n_W"], true_n_W), np.nan)
         lines = [Line(surface["t_s"], angle, ESTIMATION_ERROR)]
-        panels.append(Panel("normal error (°)", lines, {"rangemode": "tozero"}))
+        panels.append(Panel(say("normal error (°)"), lines, {"rangemode": "tozero"}))
     yield from _drawn(
         "tof",
-        "Depth camera: distance from the tool's tip to the surface (estimated along the tool, "
-        "true along the normal), and the angle between estimated and true normal. Gaps are "
-        "estimates that were not to be used.",
-        "Estimated and true distance to the surface, and angle between the normals, over time.",
+        say(
+            "Depth camera: distance from the tool's tip to the surface (estimated along the tool, "
+            "true along the normal), and the angle between estimated and true normal. Gaps are "
+            "estimates that were not to be used."
+        ),
+        say(
+            "Estimated and true distance to the surface, and angle between the normals, over time."
+        ),
         panels,
         timeline,
     )
@@ -94,26 +117,32 @@ def actuator_figures(log: RunLog, timeline: Timeline) -> Iterator[Figure]:
     """Thrust of every rotor, angle of every joint, and where the allocation saturated."""
     command = rows_of(log, Command)
     panels = [
-        Panel("thrust (N)", _per_actuator(log, "rotor_thrust", "rotor", 1.0), height_px=170),
-        Panel("joint angle (°)", _per_actuator(log, "joint_angle", "joint", 180.0 / np.pi)),
+        Panel(
+            say("thrust (N)"), _per_actuator(log, "rotor_thrust", say("rotor"), 1.0), height_px=170
+        ),
+        Panel(
+            say("joint angle (°)"), _per_actuator(log, "joint_angle", say("joint"), 180.0 / np.pi)
+        ),
     ]
     if command is not None:
         filled = {"fill": "tozeroy", "line": {"shape": "hv"}}
         lines = [Line(command["t_s"], command["saturated"], SATURATED, filled)]
-        axis = {"range": [-0.1, 1.1], "tickvals": [0, 1], "ticktext": ["no", "yes"]}
-        panels.append(Panel("saturated", lines, axis, 44))
+        axis = {"range": [-0.1, 1.1], "tickvals": [0, 1], "ticktext": [say("no"), say("yes")]}
+        panels.append(Panel(say("saturated"), lines, axis, 44))
     yield from _drawn(
         "actuators",
-        "Thrust of each rotor and angle of each tilt and arm joint, as they were and as they "
-        "were commanded, and where the allocation had to scale the wrench down.",
-        "Rotor thrusts, joint angles and saturation over time.",
+        say(
+            "Thrust of each rotor and angle of each tilt and arm joint, as they were and as they "
+            "were commanded, and where the allocation had to scale the wrench down."
+        ),
+        say("Rotor thrusts, joint angles and saturation over time."),
         panels,
         timeline,
     )
 
 
 def _drawn(
-    name: str, caption: str, description: str, panels: Sequence[Panel], timeline: Timeline
+    name: str, caption: Text, description: Text, panels: Sequence[Panel], timeline: Timeline
 ) -> Iterator[Figure]:
     """The figure of the panels that have a line, if there is any."""
     filled = [panel for panel in panels if panel.lines]
@@ -165,7 +194,7 @@ def _angle_deg(a: Points, b: Points) -> Vector:
     return angle
 
 
-def _per_actuator(log: RunLog, field: str, noun: str, scale: float) -> list[Line]:
+def _per_actuator(log: RunLog, field: str, noun: Text, scale: float) -> list[Line]:
     """One line per rotor or joint and source; the legend shows each source once."""
     sources: tuple[tuple[Structured | None, LineStyle], ...] = (
         (rows_of(log, Command), COMMAND),
@@ -179,7 +208,7 @@ def _per_actuator(log: RunLog, field: str, noun: str, scale: float) -> list[Line
             hover: Json = {
                 "opacity": 0.6,
                 "line": {"width": 1.0},
-                "hovertemplate": f"{noun} {k + 1}: %{{y:.2f}}",
+                "hovertemplate": together(noun, f" {k + 1}: %{{y:.2f}}"),
             }
             lines.append(Line(rows["t_s"], scale * rows[field][:, k], style, hover))
     return lines

@@ -31,12 +31,24 @@ from inspect_cli.reporting.rows import (
     rows_of,
     turned_to_world,
 )
-from inspect_cli.reporting.text import NOTHING, Text, indexed, say, significant
+from inspect_cli.reporting.text import NOTHING, Text, indexed, say, significant, together
 from inspect_cli.reporting.timeline import Line, Panel, Timeline, alike, stacked
 from inspect_cli.schema.result import Result
 
 PANEL_PX = 84
-AGAINST_THE_BODY = "as a rotation vector about the axes of the true body, not of the tracker's."
+AXES: tuple[Text, ...] = ("x", "y", "z")
+ANGLES: tuple[Text, ...] = (say("roll"), say("pitch"), say("yaw"))
+POSITION = (
+    say("Error of the estimated position, in the world. Panels have one scale."),
+    say("Error of the estimated position on three axes over time."),
+)
+ATTITUDE = (
+    say(
+        "Error of the estimated attitude, as a rotation vector about the axes of the true body, "
+        "not of the tracker's. Panels have one scale."
+    ),
+    say("Error of the estimated attitude on three axes over time."),
+)
 
 
 def has_ground_truth(log: RunLog) -> bool:
@@ -53,9 +65,11 @@ def position_figure(log: RunLog, timeline: Timeline) -> Iterator[Figure]:
         return
     yield stacked(
         "ground-truth-x",
-        "Position of the body along x of the world: set-point, estimate and truth. Shaded: "
-        "contact, in which the surface blocks the motion into it.",
-        "Position along x over time: set-point, estimate and truth.",
+        say(
+            "Position of the body along x of the world: set-point, estimate and truth. Shaded: "
+            "contact, in which the surface blocks the motion into it."
+        ),
+        say("Position along x over time: set-point, estimate and truth."),
         [Panel("x (m)", lines, height_px=200, off_ground=True)],
         timeline,
     )
@@ -65,20 +79,21 @@ def position_figure(log: RunLog, timeline: Timeline) -> Iterator[Figure]:
     true = held_at(state, estimate["t_s"])
     position = 1e3 * (estimate["p_WB"] - true["p_WB"])
     attitude = attitude_difference_mrad(true["q_WB"], estimate["q_WB"])
-    for name, errors, symbols, unit in (
-        ("position", position, ("x", "y", "z"), "mm"),
-        ("attitude", attitude, ("roll", "pitch", "yaw"), "mrad"),
+    for name, errors, symbols, unit, (caption, description) in (
+        ("position", position, AXES, "mm", POSITION),
+        ("attitude", attitude, ANGLES, "mrad", ATTITUDE),
     ):
         panels = [
-            Panel(f"{symbol} ({unit})", [Line(estimate["t_s"], errors[:, k], ESTIMATION_ERROR)])
+            Panel(
+                together(symbol, f" ({unit})"),
+                [Line(estimate["t_s"], errors[:, k], ESTIMATION_ERROR)],
+            )
             for k, symbol in enumerate(symbols)
         ]
         yield stacked(
             f"ground-truth-{name}",
-            f"Error of the estimated {name}, "
-            + ("in the world." if unit == "mm" else AGAINST_THE_BODY)
-            + " Panels have one scale.",
-            f"Error of the estimated {name} on three axes over time.",
+            caption,
+            description,
             alike(panels, timeline.off_ground_s or (-np.inf, np.inf)),
             timeline,
         )
@@ -107,11 +122,13 @@ def force_figure(flight: Flight, timeline: Timeline) -> Iterator[Figure]:
     ]
     yield stacked(
         "ground-truth-force",
-        "Force on the vehicle in the world: by the momentum observer, and by the sensor in the "
-        "wall, raw and filtered (Butterworth of order 5, 5 Hz, without a lag). The observer holds "
-        "all other external force too. The scale is that of the smooth lines; the raw signal goes "
-        "beyond it.",
-        "Estimated and measured force on three axes over time.",
+        say(
+            "Force on the vehicle in the world: by the momentum observer, and by the sensor in "
+            "the wall, raw and filtered (Butterworth of order 5, 5 Hz, without a lag). The "
+            "observer holds all other external force too. The scale is that of the smooth lines; "
+            "the raw signal goes beyond it."
+        ),
+        say("Estimated and measured force on three axes over time."),
         panels,
         timeline,
     )

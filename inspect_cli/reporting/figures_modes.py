@@ -10,6 +10,7 @@ from inspect_cli.reporting.figure import Figure, Json, numbers, words
 from inspect_cli.reporting.palette import INK, MODE_COLOURS, MUTED, VERMILION
 from inspect_cli.reporting.rows import rows_of
 from inspect_cli.reporting.tables import QUIET_LEVELS
+from inspect_cli.reporting.text import say
 from inspect_cli.spatial.arrays import Structured
 
 ROW_PX = 24
@@ -37,7 +38,7 @@ def modes_figure(log: RunLog) -> Figure | None:
         "bargap": 0.25,
         "hovermode": "closest",
         "xaxis": {
-            "title": {"text": "time (s)"},
+            "title": {"text": say("time (s)")},
             "autorangeoptions": {
                 "minallowed": float(reference["t_s"][0]),
                 "maxallowed": float(reference["t_s"][-1]),
@@ -47,8 +48,11 @@ def modes_figure(log: RunLog) -> Figure | None:
     }
     return Figure(
         "modes",
-        "Modes of the mission executive, and events as markers; the table below spells them out.",
-        "Timeline of the modes of the mission executive.",
+        say(
+            "Modes of the mission executive, and events as markers; the table below spells them "
+            "out."
+        ),
+        say("Timeline of the modes of the mission executive."),
         traces,
         layout,
         60 + ROW_PX * len(rows),

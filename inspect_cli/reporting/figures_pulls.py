@@ -45,6 +45,23 @@ BEFORE_S = 2.0
 AFTER_S = 5.0
 """Drawn before the first and after the last pull."""
 PANEL_PX = 84
+POSITION = (
+    say(
+        "Position error against the held reference, along the axes of the body, and below it the "
+        "external force: the momentum observer's estimate, which holds all external force, and "
+        "the cord's. Shaded and numbered: the pulls. Panels of one kind have one scale."
+    ),
+    say("Position error and external force over time during pulls at a cord."),
+)
+ATTITUDE = (
+    say(
+        "Attitude error against the held reference, along the axes of the body, and below it the "
+        "external torque about the body's origin: the momentum observer's estimate, which holds "
+        "all external force, and the cord's. Shaded and numbered: the pulls. Panels of one kind "
+        "have one scale."
+    ),
+    say("Attitude error and external torque over time during pulls at a cord."),
+)
 
 
 def pull_phases(log: RunLog) -> tuple[Phase, ...]:
@@ -112,14 +129,11 @@ def _figure(
         Panel(f"{wrench}<sub>{axis}</sub> ({wrench_unit})", _wrench(log, first + k), None, PANEL_PX)
         for k, axis in enumerate("xyz")
     ]
-    what = "Position" if first == 0 else "Attitude"
-    cause = "force" if first == 0 else "torque about the body's origin"
+    caption, description = POSITION if first == 0 else ATTITUDE
     return stacked(
         f"pull-{name}",
-        f"{what} error against the held reference, along the axes of the body, and below it the "
-        f"external {cause}: the momentum observer's estimate, which holds all external force, and "
-        "the cord's. Shaded and numbered: the pulls. Panels of one kind have one scale.",
-        f"{what} error and external {cause.split()[0]} over time during pulls at a cord.",
+        caption,
+        description,
         [*alike(above, window), *alike([p for p in below if p.lines], window)],
         timeline,
     )

@@ -13,6 +13,7 @@ from inspect_cli.reporting.palette import ESTIMATE, INK, MUTED, REFERENCE, TIP, 
 from inspect_cli.reporting.points import ReadPoint
 from inspect_cli.reporting.potential_scale import colour_axis, colour_bar, colours, hover_text
 from inspect_cli.reporting.rows import rows_of
+from inspect_cli.reporting.text import Text, say, together
 from inspect_cli.schema.plan import Plan, PlannedSurface
 from inspect_cli.schema.primitives import primitive_of
 from inspect_cli.spatial.arrays import Points, Vector
@@ -28,11 +29,11 @@ CURVED_NODES = 25
 def scene_figure(log: RunLog, plan: Plan, points: Sequence[ReadPoint]) -> Figure:
     """Surfaces, planned and flown path, contact points by potential; equal scales."""
     traces = [_surface(surface) for surface in plan.surfaces]
-    traces.append(_path("planned path", _planned_path(plan), REFERENCE, "dash"))
+    traces.append(_path(say("planned path"), _planned_path(plan), REFERENCE, "dash"))
     for record, position, style, name in (
-        (State, "p_WT", TIP, "tool's tip (truth)"),
-        (State, "p_WB", TRUTH, "flown path (truth)"),
-        (Estimate, "p_WB", ESTIMATE, "flown path (estimate)"),
+        (State, "p_WT", TIP, say("tool's tip (truth)")),
+        (State, "p_WB", TRUTH, say("flown path (truth)")),
+        (Estimate, "p_WB", ESTIMATE, say("flown path (estimate)")),
     ):
         rows = rows_of(log, record)
         if rows is not None:
@@ -50,9 +51,11 @@ def scene_figure(log: RunLog, plan: Plan, points: Sequence[ReadPoint]) -> Figure
     }
     return Figure(
         "scene",
-        "Structure as the planner believed it, path of the body, and where the tool was believed "
-        "to touch, coloured by potential; equal scales on all axes. Drag to turn.",
-        "Three-dimensional view of the structure, the path and the readings.",
+        say(
+            "Structure as the planner believed it, path of the body, and where the tool was "
+            "believed to touch, coloured by potential; equal scales on all axes. Drag to turn."
+        ),
+        say("Three-dimensional view of the structure, the path and the readings."),
         traces,
         layout,
         600,
@@ -85,7 +88,7 @@ def _surface(surface: PlannedSurface) -> Json:
         "showscale": False,
         "opacity": 0.6,
         "lighting": {"ambient": 0.85, "diffuse": 0.25, "specular": 0.0},
-        "hovertemplate": f"{name}<extra></extra>",
+        "hovertemplate": together(name, "<extra></extra>"),
         "showlegend": True,
     }
 
@@ -95,7 +98,7 @@ def _planned_path(plan: Plan) -> Points:
     return np.array([posture.p_WB for posture in postures])
 
 
-def _path(name: str, p_W: Points, style: LineStyle, dash: str) -> Json:
+def _path(name: Text, p_W: Points, style: LineStyle, dash: str) -> Json:
     stride = -(-len(p_W) // PATH_SAMPLES)
     path = p_W[::stride]
     near = np.all(np.abs(np.nan_to_num(path, nan=np.inf)) < FAR_M, axis=1)
@@ -122,17 +125,17 @@ def _readings(points: Sequence[ReadPoint]) -> list[Json]:
             "color": colours(valid, points),
             "line": {"width": 1, "color": INK},
         }
-        hover = [hover_text(p) for p in valid]
-        traces.append(_markers("valid readings", valid, marker, hover))
+        told = [hover_text(p) for p in valid]
+        traces.append(_markers(say("valid readings"), valid, marker, told))
         traces.append(colour_bar("scatter3d"))
     if invalid:
         marker = {"size": 5, "symbol": "x", "color": INK}
-        hover = [words(f"{p.point.label}: {p.point.reason}") for p in invalid]
-        traces.append(_markers("invalid readings", invalid, marker, hover))
+        hover = [together(words(p.point.label), ": ", words(p.point.reason)) for p in invalid]
+        traces.append(_markers(say("invalid readings"), invalid, marker, hover))
     return traces
 
 
-def _markers(name: str, points: Sequence[ReadPoint], marker: Json, hover: Sequence[str]) -> Json:
+def _markers(name: Text, points: Sequence[ReadPoint], marker: Json, hover: Sequence[Text]) -> Json:
     x, y, z = (numbers([p.point.p_W[k] for p in points]) for k in range(3))
     return {
         "type": "scatter3d",
@@ -160,7 +163,7 @@ def _cloud(log: RunLog) -> list[Json]:
         {
             "type": "scatter3d",
             "mode": "markers",
-            "name": "depth camera",
+            "name": say("depth camera"),
             "visible": "legendonly",
             "x": x,
             "y": y,

@@ -25,6 +25,7 @@ from inspect_cli.reporting.palette import (
     LineStyle,
 )
 from inspect_cli.reporting.rows import turned_to_body, turned_to_world
+from inspect_cli.reporting.text import say, together
 from inspect_cli.reporting.timeline import Line, Mark, Panel, Phase, Timeline, stacked
 from inspect_cli.spatial.arrays import Points, Structured, Vector
 
@@ -34,6 +35,8 @@ NEAR_M = 0.15
 """Of the approach and the retreat only what is this near to the surface is drawn from the side."""
 AROUND_S = 2.0
 PANEL_PX = 96
+OFF = say("along the normal, off the surface (m)")
+INTO = say("along the normal, into the surface (m)")
 
 
 @dataclass(frozen=True)
@@ -96,33 +99,36 @@ def _from_the_side(flight: Flight, number: int, slide: Slide) -> Figure:
     traces = [
         _path(view.of(foot_W[known]), TRUE_SURFACE),
         _path(view.of(flight.reference["p_WT"][rows]), REFERENCE),
-        _path(view.of(state["p_WT"][rows]), LineStyle("tool's tip (truth)", TRUTH.colour)),
+        _path(view.of(state["p_WT"][rows]), LineStyle(say("tool's tip (truth)"), TRUTH.colour)),
     ]
     estimate = flight.log.rows(Estimate)
     if estimate is not None:
         tip_W = _believed_tip(flight)[rows]
-        traces.append(_path(view.of(tip_W), LineStyle("tool's tip (estimate)", ESTIMATE.colour)))
+        traces.append(
+            _path(view.of(tip_W), LineStyle(say("tool's tip (estimate)"), ESTIMATE.colour))
+        )
     seen = _seen(flight, slide)
     if seen is not None:
         traces += _arrows(view, seen)
-    normal = "off the surface" if view.off_surface else "into the surface"
     layout: Json = {
         "hovermode": "closest",
         "margin": {"t": 72},
-        "xaxis": {"title": {"text": "along the slide (m)"}, "constrain": "domain"},
+        "xaxis": {"title": {"text": say("along the slide (m)")}, "constrain": "domain"},
         "yaxis": {
-            "title": {"text": f"along the normal, {normal} (m)"},
+            "title": {"text": OFF if view.off_surface else INTO},
             "scaleanchor": "x",
             "constrain": "domain",
         },
     }
     return Figure(
         f"slide-{number}-side",
-        "The slide from the side, in the plane of x_T and the normal at the first touch, which is "
-        "the origin; equal scales. Arrows, one every 0.2 s in contact: the point on the tool's "
-        "axis and the normal as the depth camera gave them, in the world as it was estimated. The "
-        "set-point lies behind the surface on purpose.",
-        "Side view of the slide: set-point, tip, seen points with normals, true surface.",
+        say(
+            "The slide from the side, in the plane of x_T and the normal at the first touch, "
+            "which is the origin; equal scales. Arrows, one every 0.2 s in contact: the point on "
+            "the tool's axis and the normal as the depth camera gave them, in the world as it was"
+            " estimated. The set-point lies behind the surface on purpose."
+        ),
+        say("Side view of the slide: set-point, tip, seen points with normals, true surface."),
         traces,
         layout,
         460,
@@ -195,7 +201,7 @@ def _path(xy: Points, style: LineStyle) -> Json:
         "x": numbers(xy[:, 0]),
         "y": numbers(xy[:, 1]),
         "line": {"color": style.colour, "dash": style.dash, "width": style.width},
-        "hovertemplate": f"{style.label}<br>%{{x:.3f}}, %{{y:.3f}} m<extra></extra>",
+        "hovertemplate": together(style.label, "<br>%{x:.3f}, %{y:.3f} m<extra></extra>"),
     }
 
 
@@ -206,15 +212,15 @@ def _over_time(flight: Flight, number: int, slide: Slide) -> Figure:
     timeline = Timeline(
         phases=(Phase(float(contact[0]), float(contact[-1]), ""),),
         marks=(
-            Mark(float(moving[0]), "moves", "right"),
-            Mark(float(moving[-1]), "stops", "left"),
+            Mark(float(moving[0]), say("moves"), "right"),
+            Mark(float(moving[-1]), say("stops"), "left"),
         ),
     ).within((float(busy[0]) - AROUND_S, float(busy[-1]) + AROUND_S))
     panels = [
         *_rotations(flight, slide),
-        Panel("distance (m)", _distances(flight), None, PANEL_PX, off_ground=True),
+        Panel(say("distance (m)"), _distances(flight), None, PANEL_PX, off_ground=True),
         Panel(
-            "force (N)",
+            say("force (N)"),
             [Line(t_s, flight.state["f_normal"], TRUTH)],
             None,
             PANEL_PX,
@@ -223,12 +229,15 @@ def _over_time(flight: Flight, number: int, slide: Slide) -> Figure:
     ]
     return stacked(
         f"slide-{number}-time",
-        "Attitude of the tool as rotations about its own axes since the slide began: set-point by "
-        "the seen normal, and truth; the set-point is in the world as it was estimated, so that an "
-        "error of the estimate stands between the two. Below: distance from the tip to the "
-        "surface, by the depth camera along the tool and in truth along the normal, and the true "
-        "normal force. Shaded: contact. Between the marks the set-point moves along the surface.",
-        "Rotation about the tool's three axes, distance and normal force over time.",
+        say(
+            "Attitude of the tool as rotations about its own axes since the slide began: set-"
+            "point by the seen normal, and truth; the set-point is in the world as it was "
+            "estimated, so that an error of the estimate stands between the two. Below: distance "
+            "from the tip to the surface, by the depth camera along the tool and in truth along "
+            "the normal, and the true normal force. Shaded: contact. Between the marks the set-"
+            "point moves along the surface."
+        ),
+        say("Rotation about the tool's three axes, distance and normal force over time."),
         panels,
         timeline,
     )
@@ -245,7 +254,7 @@ def _rotations(flight: Flight, slide: Slide) -> list[Panel]:
     turns = [(np.degrees(rotation_vectors(start, q)), style) for q, style in tracks]
     return [
         Panel(
-            f"about {axis}<sub>T</sub> (°)",
+            say("about {axis} (°)", axis=f"{axis}<sub>T</sub>"),
             [Line(state["t_s"], turn[:, k], style) for turn, style in turns],
             None,
             PANEL_PX,

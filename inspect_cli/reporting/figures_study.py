@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from inspect_cli.reporting.figure import Figure, Json
 from inspect_cli.reporting.palette import BLUE, GREEN, INK, ORANGE
 from inspect_cli.reporting.published import SOURCE, TABLE_IV
+from inspect_cli.reporting.text import Text, say, significant, together
 from inspect_cli.schema.study import Quantity, StudyResult
 
 PREDICTED = "study.lag_contact_rmse_fx_n"
@@ -23,7 +24,7 @@ class Curve:
     """A metric as it is drawn in every panel of a row."""
 
     metric: str
-    label: str
+    label: Text
     colour: str
     symbol: str
     dash: str = "solid"
@@ -34,7 +35,7 @@ class Level:
     """A value that a row's curves are held against."""
 
     value: float
-    label: str
+    label: Text
     dash: str = "dash"
 
 
@@ -42,7 +43,7 @@ class Level:
 class Row:
     """Panels with one vertical axis, one for each quantity."""
 
-    heading: str
+    heading: Text
     curves: tuple[Curve, ...]
     level: Level
     share: float
@@ -54,29 +55,34 @@ def force_figure(study: StudyResult) -> Figure:
     whole = "force_sensor.rmse_fx_n"
     published = TABLE_IV[whole][1]
     errors = Row(
-        "RMSE of f<sub>x</sub> (N)",
+        say("RMSE of f<sub>x</sub> (N)"),
         (
-            Curve("force_sensor.contact_rmse_fx_n", "flown, in contact", BLUE, "circle"),
-            Curve(PREDICTED, "predicted by the lag, in contact", ORANGE, "x-thin-open", "dash"),
-            Curve(whole, "flown, whole flight", GREEN, "square", "dot"),
+            Curve("force_sensor.contact_rmse_fx_n", say("flown, in contact"), BLUE, "circle"),
+            Curve(
+                PREDICTED, say("predicted by the lag, in contact"), ORANGE, "x-thin-open", "dash"
+            ),
+            Curve(whole, say("flown, whole flight"), GREEN, "square", "dot"),
         ),
-        Level(published, f"published, {published:g} N"),
+        Level(published, say("published, {value} N", value=significant(published))),
         0.62,
     )
     calm = Row(
-        "oscillation growth",
-        (Curve("contact.oscillation_growth", "oscillation growth", INK, "diamond"),),
-        Level(1.0, "neither grows nor dies out", "dot"),
+        say("oscillation growth"),
+        (Curve("contact.oscillation_growth", say("oscillation growth"), INK, "diamond"),),
+        Level(1.0, say("neither grows nor dies out"), "dot"),
         0.38,
     )
     return Figure(
         "force-sweep",
-        "Error of the estimated force along the contact's direction against the observer's gain "
-        "K_I and against the speed v of the reference, the other held at what the mission says. "
-        "Predicted is what a first-order lag alone errs by, given the measured force. "
-        f"Published: {SOURCE}, Table IV. Below, the oscillation of the true force in the second "
-        "half of a dwell over that in the first; below 1 it dies out.",
-        "Force errors and growth of oscillations against observer gain and reference speed.",
+        say(
+            "Error of the estimated force along the contact's direction against the observer's "
+            "gain K_I and against the speed v of the reference, the other held at what the mission "
+            "says. Predicted is what a first-order lag alone errs by, given the measured force. "
+            "Published: {source}, Table IV. Below, the oscillation of the true force in the second "
+            "half of a dwell over that in the first; below 1 it dies out.",
+            source=SOURCE,
+        ),
+        say("Force errors and growth of oscillations against observer gain and reference speed."),
         *sweep_panels(study, (errors, calm)),
         560,
     )
@@ -132,7 +138,9 @@ def _panel(
                 "color": curve.colour,
                 "line": {"width": 2, "color": curve.colour},
             },
-            "hovertemplate": f"%{{x:g}} {quantity.unit}: %{{y:.3g}}<extra>{curve.label}</extra>",
+            "hovertemplate": together(
+                f"%{{x:g}} {quantity.unit}: %{{y:.3g}}<extra>", curve.label, "</extra>"
+            ),
         }
     if x:
         yield axes | {
@@ -157,6 +165,6 @@ def _x_axis(study: StudyResult, quantity: Quantity, column: int) -> Json:
         "domain": [start, min(start + width, 1.0)],
         "type": "log",
         "tickvals": x,
-        "ticktext": [f"{value:g}" for value in x],
+        "ticktext": [significant(value) for value in x],
         "title": {"text": f"{shown} ({quantity.unit})"},
     }

@@ -22,22 +22,24 @@ from inspect_cli.reporting.rows import (
     roll_pitch_yaw_deg,
     rows_of,
 )
+from inspect_cli.reporting.text import Text, say, sentences, together
 from inspect_cli.reporting.timeline import Line, Panel, Timeline, stacked
 from inspect_cli.spatial.arrays import Points, Structured, Vector
 
 Track = tuple[Vector, Points, LineStyle]
 """Times (n,), three components (n, 3), and how their lines look."""
 
-AXES = ("x", "y", "z")
-ANGLES = ("roll", "pitch", "yaw")
-IN_CONTACT = (
-    " Shaded and numbered: contact phases, in which the set-point lies behind the surface on "
+AXES: tuple[Text, ...] = ("x", "y", "z")
+ANGLES: tuple[Text, ...] = (say("roll"), say("pitch"), say("yaw"))
+IN_CONTACT = say(
+    "Shaded and numbered: contact phases, in which the set-point lies behind the surface on "
     "purpose."
 )
-SPRING = (
-    " In contact the distance to the reference is the compression of the virtual spring that makes "
+SPRING = say(
+    "In contact the distance to the reference is the compression of the virtual spring that makes "
     "the force; it is no tracking error."
 )
+SCALED = say("The axes are scaled to the time between take-off and landing.")
 
 
 def tracking_figures(log: RunLog, timeline: Timeline) -> Iterator[Figure]:
@@ -45,25 +47,25 @@ def tracking_figures(log: RunLog, timeline: Timeline) -> Iterator[Figure]:
     poses = _poses(log)
     if not poses:
         return
+    in_contact = (IN_CONTACT, SPRING) if timeline.phases else ()
     yield stacked(
         "position",
-        "Position of the body in the world." + (IN_CONTACT if timeline.phases else ""),
-        "Position x, y, z of the body over time: reference, estimate and truth.",
+        sentences([say("Position of the body in the world."), *(in_contact[:1])]),
+        say("Position x, y, z of the body over time: reference, estimate and truth."),
         _panels([(rows["t_s"], rows["p_WB"], style) for rows, style in poses], AXES, "m"),
         timeline,
     )
     yield from _error_figure(
         "position-error",
-        f"Position errors per axis of the world.{SPRING if timeline.phases else ''} The "
-        "axes are scaled to the time between take-off and landing.",
-        "Position errors along x, y and z over time.",
+        sentences([say("Position errors per axis of the world."), *in_contact[1:], SCALED]),
+        say("Position errors along x, y and z over time."),
         _panels(_errors(log, _position_difference_mm), AXES, "mm", off_ground=True),
         timeline,
     )
     yield stacked(
         "attitude",
-        "Attitude of the body as roll, pitch and yaw (R = R_z R_y R_x).",
-        "Roll, pitch and yaw of the body over time: reference, estimate and truth.",
+        say("Attitude of the body as roll, pitch and yaw (R = R_z R_y R_x)."),
+        say("Roll, pitch and yaw of the body over time: reference, estimate and truth."),
         _panels(
             [(rows["t_s"], roll_pitch_yaw_deg(rows["q_WB"]), style) for rows, style in poses],
             ANGLES,
@@ -73,9 +75,11 @@ def tracking_figures(log: RunLog, timeline: Timeline) -> Iterator[Figure]:
     )
     yield from _error_figure(
         "attitude-error",
-        "Attitude errors as rotation vectors, in the frame of the body that they start from. The "
-        "axes are scaled to the time between take-off and landing.",
-        "Components of the attitude error over time.",
+        say(
+            "Attitude errors as rotation vectors, in the frame of the body that they start from. "
+            "The axes are scaled to the time between take-off and landing."
+        ),
+        say("Components of the attitude error over time."),
         _panels(
             _errors(log, _attitude_difference_mrad),
             [f"θ<sub>{axis}</sub>" for axis in AXES],
@@ -94,18 +98,18 @@ def _poses(log: RunLog) -> list[tuple[Structured, LineStyle]]:
 
 
 def _error_figure(
-    name: str, caption: str, description: str, panels: Sequence[Panel], timeline: Timeline
+    name: str, caption: Text, description: Text, panels: Sequence[Panel], timeline: Timeline
 ) -> Iterator[Figure]:
     if panels[0].lines:
         yield stacked(name, caption, description, panels, timeline)
 
 
 def _panels(
-    tracks: Sequence[Track], names: Sequence[str], unit: str, *, off_ground: bool = False
+    tracks: Sequence[Track], names: Sequence[Text], unit: str, *, off_ground: bool = False
 ) -> list[Panel]:
     return [
         Panel(
-            f"{name} ({unit})",
+            together(name, f" ({unit})"),
             [Line(t_s, xyz[:, k], style) for t_s, xyz, style in tracks],
             off_ground=off_ground,
         )

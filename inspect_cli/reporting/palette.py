@@ -9,6 +9,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from inspect_cli.records import Mode
+from inspect_cli.reporting.text import Text, number, say
 
 INK = "#1f2328"
 MUTED = "#59636e"
@@ -32,28 +33,28 @@ FONT = 'system-ui, -apple-system, "Segoe UI", Roboto, "Helvetica Neue", Arial, s
 class LineStyle:
     """How a signal is drawn in every figure, with the name that the legend gives it."""
 
-    label: str
+    label: Text
     colour: str
     dash: str = "solid"
     width: float = 1.4
 
 
-REFERENCE = LineStyle("reference", INK, "dot", 1.3)
-TIP = LineStyle("tool's tip", "#7fceb9", "solid", 1.0)
-ESTIMATE = LineStyle("estimate", BLUE, "solid", 1.4)
-TRUTH = LineStyle("truth", GREEN, "solid", 1.8)
-SENSOR = LineStyle("load cell", PURPLE, "solid", 1.2)
-COMMAND = LineStyle("command", MUTED, "dot", 1.0)
+REFERENCE = LineStyle(say("reference"), INK, "dot", 1.3)
+TIP = LineStyle(say("tool's tip"), "#7fceb9", "solid", 1.0)
+ESTIMATE = LineStyle(say("estimate"), BLUE, "solid", 1.4)
+TRUTH = LineStyle(say("truth"), GREEN, "solid", 1.8)
+SENSOR = LineStyle(say("load cell"), PURPLE, "solid", 1.2)
+COMMAND = LineStyle(say("command"), MUTED, "dot", 1.0)
 # A difference has the colour of what it is taken from.
-TRACKING_ERROR = LineStyle("truth − reference", GREEN, "solid", 1.4)
-BELIEVED_ERROR = LineStyle("estimate − reference", BLUE, "solid", 1.4)
-ESTIMATION_ERROR = LineStyle("estimate − truth", BLUE, "solid", 1.2)
-CORD = LineStyle("cord (truth)", GREEN, "solid", 1.8)
-SENSOR_RAW = LineStyle("wall sensor, raw", "#e3c3d5", "solid", 0.7)
-SENSOR_FILTERED = LineStyle("wall sensor, filtered", PURPLE, "solid", 1.6)
-TRUE_SURFACE = LineStyle("true surface", MUTED, "solid", 3.0)
-SEEN_SURFACE = LineStyle("surface as seen", ORANGE, "solid", 1.2)
-SATURATED = LineStyle("saturated", VERMILION, "solid", 1.0)
+TRACKING_ERROR = LineStyle(say("truth − reference"), GREEN, "solid", 1.4)
+BELIEVED_ERROR = LineStyle(say("estimate − reference"), BLUE, "solid", 1.4)
+ESTIMATION_ERROR = LineStyle(say("estimate − truth"), BLUE, "solid", 1.2)
+CORD = LineStyle(say("cord (truth)"), GREEN, "solid", 1.8)
+SENSOR_RAW = LineStyle(say("wall sensor, raw"), "#e3c3d5", "solid", 0.7)
+SENSOR_FILTERED = LineStyle(say("wall sensor, filtered"), PURPLE, "solid", 1.6)
+TRUE_SURFACE = LineStyle(say("true surface"), MUTED, "solid", 3.0)
+SEEN_SURFACE = LineStyle(say("surface as seen"), ORANGE, "solid", 1.2)
+SATURATED = LineStyle(say("saturated"), VERMILION, "solid", 1.0)
 
 
 TRIALS = ((BLUE, "solid"), (VERMILION, "dash"), (GREEN, "dashdot"), (PURPLE, "longdash"))
@@ -63,29 +64,29 @@ TRIALS = ((BLUE, "solid"), (VERMILION, "dash"), (GREEN, "dashdot"), (PURPLE, "lo
 def trial_style(trial: int) -> LineStyle:
     """How a trial is drawn, by its number from 0."""
     colour, dash = TRIALS[trial % len(TRIALS)]
-    return LineStyle(f"trial {trial + 1}", colour, dash, 1.5)
+    return LineStyle(say("trial {k}", k=number(trial + 1, 0)), colour, dash, 1.5)
 
 
 @dataclass(frozen=True)
 class ClassStyle:
     """How a class of points is drawn."""
 
-    label: str
+    label: Text
     colour: str
     symbol: str
 
 
 ASTM_STYLES = {
-    "passive": ClassStyle("passive", SKY_BLUE, "circle"),
-    "uncertain": ClassStyle("uncertain", ORANGE, "square"),
-    "active": ClassStyle("active", VERMILION, "diamond"),
+    "passive": ClassStyle(say("passive"), SKY_BLUE, "circle"),
+    "uncertain": ClassStyle(say("uncertain"), ORANGE, "square"),
+    "active": ClassStyle(say("active"), VERMILION, "diamond"),
 }
 CORROSION_STYLES = {
-    "none": ClassStyle("none", SKY_BLUE, "circle"),
-    "possible": ClassStyle("possible", ORANGE, "square"),
-    "active": ClassStyle("active", VERMILION, "diamond"),
+    "none": ClassStyle(say("none"), SKY_BLUE, "circle"),
+    "possible": ClassStyle(say("possible"), ORANGE, "square"),
+    "active": ClassStyle(say("active"), VERMILION, "diamond"),
 }
-INVALID_STYLE = ClassStyle("invalid reading", INK, "x-thin")
+INVALID_STYLE = ClassStyle(say("invalid reading"), INK, "x-thin")
 
 MODE_COLOURS = {
     Mode.IDLE: "#c4ccd4",

@@ -10,6 +10,7 @@ import numpy as np
 from inspect_cli.records import Mode
 from inspect_cli.reporting.figure import Figure, Json, merged, numbers, words
 from inspect_cli.reporting.palette import CONTACT_SHADE, MUTED, LineStyle
+from inspect_cli.reporting.text import Text, say
 from inspect_cli.schema.plan import Plan
 from inspect_cli.spatial.arrays import Mask, Structured, Vector
 
@@ -24,6 +25,7 @@ PRESSED = (Mode.PRESS, Mode.SLIDE)
 """Modes of a contact, from the press to the end of the slide if there is one."""
 LARGEST_DRAWN = 1e6
 """Beyond this only a diverged simulation goes; an axis that showed it would show nothing else."""
+TIME = say("time (s)")
 PANEL_GAP_PX = 14
 TOP_PX = 64
 BOTTOM_PX = 44
@@ -35,7 +37,7 @@ class Phase:
 
     start_s: float
     end_s: float
-    label: str
+    label: Text
 
 
 @dataclass(frozen=True)
@@ -43,7 +45,7 @@ class Mark:
     """A moment with a word for it, and which end of the word stands there."""
 
     t_s: float
-    label: str
+    label: Text
     anchor: str = "center"
 
 
@@ -58,7 +60,7 @@ class Timeline:
     marks: tuple[Mark, ...] = ()
     window_s: tuple[float, float] | None = None
     """The stretch that is drawn; without it, everything."""
-    title: str = "time (s)"
+    title: Text = TIME
     of_the_log: bool = True
     """Whether times are the log's; such figures zoom together."""
 
@@ -82,7 +84,7 @@ class Line:
 class Panel:
     """Signals that share a value axis."""
 
-    title: str
+    title: Text
     lines: Sequence[Line]
     axis: Json | None = None
     """Entries of the plotly axis that differ from the defaults."""
@@ -160,8 +162,8 @@ def alike(panels: Sequence[Panel], window_s: tuple[float, float]) -> list[Panel]
 
 def stacked(
     name: str,
-    caption: str,
-    description: str,
+    caption: Text,
+    description: Text,
     panels: Sequence[Panel],
     timeline: Timeline,
 ) -> Figure:
@@ -181,7 +183,7 @@ def stacked(
     }
     if timeline.window_s is not None:
         layout["xaxis"]["range"] = list(timeline.window_s)
-    shown: set[str] = set()
+    shown: list[Text] = []
     for k, (panel, top, height) in enumerate(zip(panels, tops, heights, strict=True)):
         domain = [max(0.0, float((top - height) / drawn_px)), float(top / drawn_px)]
         axis: Json = {"title": {"text": panel.title}, "domain": domain, "nticks": 5}
@@ -190,7 +192,7 @@ def stacked(
         layout["yaxis" if k == 0 else f"yaxis{k + 1}"] = merged(axis, panel.axis or {})
         for line in panel.lines:
             traces.append(_trace(_cut(line, timeline), _axis(k), line.style.label not in shown))
-            shown.add(line.style.label)
+            shown.append(line.style.label)
     height_px = int(drawn_px) + TOP_PX + BOTTOM_PX
     timed = timeline.of_the_log
     return Figure(name, caption, description, traces, layout, height_px, timed=timed)
@@ -273,7 +275,7 @@ def _mark_label(mark: Mark) -> Json:
     return _label(mark.label, mark.t_s) | {"xanchor": mark.anchor}
 
 
-def _label(text: str, t_s: float) -> Json:
+def _label(text: Text, t_s: float) -> Json:
     return {
         "text": words(text),
         "x": t_s,
