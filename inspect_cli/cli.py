@@ -43,6 +43,7 @@ Out = Annotated[Path | None, typer.Option(metavar="DIR", help="Write here instea
 ReportOut = Annotated[
     Path | None, typer.Option("--out", metavar="DIR", help="Write here instead of beside the log.")
 ]
+Language = Annotated[Literal["en", "de"], typer.Option(help="Of the page.")]
 Platform = Annotated[
     Path | None,
     typer.Option(metavar="NAME|FILE", help="A platform instead of the one the mission names."),
@@ -164,6 +165,7 @@ def fly(
 def report(
     runs: Annotated[list[Path], typer.Argument(metavar="RUN|LOG...", help="Run folders or logs.")],
     out: ReportOut = None,
+    language: Language = "en",
     as_json: Json = False,
 ) -> int:
     """Report flights: metrics, readings and an HTML page."""
@@ -171,7 +173,7 @@ def report(
     from inspect_cli.commands.report import report as command
 
     with _stdout_kept_clean():
-        outcomes = command(runs, out)
+        outcomes = command(runs, out, language)
     if as_json:
         reports = [
             {"page": str(o.page), "result": o.result.model_dump(mode="json", by_alias=True)}
@@ -231,6 +233,7 @@ def study(
         int | None, typer.Option(min=0, help="Of the noise; by default the mission's first.")
     ] = None,
     jobs: Annotated[int, typer.Option(min=1, help="Flights at a time.")] = 1,
+    language: Language = "en",
     as_json: Json = False,
 ) -> int:
     """Fly a mission with varied numbers; show what they do to its metrics."""
@@ -242,7 +245,14 @@ def study(
         terminal.announce_compilation(shown=not as_json)
         with terminal.regression_progress(shown=not as_json) as progress:
             outcome = command(
-                name, mission, asked=asked, out=out, seed=seed, jobs=jobs, progress=progress
+                name,
+                mission,
+                asked=asked,
+                out=out,
+                seed=seed,
+                jobs=jobs,
+                language=language,
+                progress=progress,
             )
     if as_json:
         sys.stdout.write(outcome.result.model_dump_json(by_alias=True) + "\n")

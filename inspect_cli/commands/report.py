@@ -10,6 +10,7 @@ from inspect_cli.commands.runs import log_of, write_model
 from inspect_cli.commands.survey_report import report_survey, survey_of
 from inspect_cli.log.reader import read_log
 from inspect_cli.metrics.evaluate import evaluate
+from inspect_cli.reporting.language import LanguageCode
 from inspect_cli.reporting.report import write_report
 from inspect_cli.schema.result import Result
 
@@ -22,23 +23,25 @@ class ReportOutcome:
     page: Path
 
 
-def report(runs: Sequence[Path], out: Path | None = None) -> tuple[ReportOutcome, ...]:
+def report(
+    runs: Sequence[Path], out: Path | None = None, language: LanguageCode = "en"
+) -> tuple[ReportOutcome, ...]:
     """Report each run folder or log; with several, ``out`` takes a folder per mission and run.
 
     Raises LogError when a file is no log of ours; then nothing is written for it.
     """
-    return tuple(_report_one(run, _folder(run, out, len(runs))) for run in runs)
+    return tuple(_report_one(run, _folder(run, out, len(runs)), language) for run in runs)
 
 
-def _report_one(run: Path, folder: Path) -> ReportOutcome:
+def _report_one(run: Path, folder: Path, language: LanguageCode) -> ReportOutcome:
     survey = survey_of(run)
     if survey is not None:
-        return ReportOutcome(*report_survey(run, survey, folder))
+        return ReportOutcome(*report_survey(run, survey, folder, language))
     log = read_log(log_of(run))
     result = evaluate(log)
     folder.mkdir(parents=True, exist_ok=True)
     write_model(folder / "metrics.json", result)
-    return ReportOutcome(result, write_report(log, result, folder))
+    return ReportOutcome(result, write_report(log, result, folder, language))
 
 
 def _folder(run: Path, out: Path | None, count: int) -> Path:

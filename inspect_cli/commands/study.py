@@ -25,7 +25,10 @@ from inspect_cli.metrics.evaluate import measure
 from inspect_cli.metrics.flight import Flight
 from inspect_cli.regression.flights import FlightEnd, FlightTask, fly_all
 from inspect_cli.regression.run import Progress
-from inspect_cli.reporting.study import study_html
+from inspect_cli.reporting.html import html
+from inspect_cli.reporting.language import LanguageCode
+from inspect_cli.reporting.language import language as language_of
+from inspect_cli.reporting.study import study_document
 from inspect_cli.schema.coverage import CoveragePlan
 from inspect_cli.schema.explain import suggest
 from inspect_cli.schema.loading import Loaded, load_mission
@@ -69,6 +72,7 @@ def study(
     out: Path | None = None,
     seed: int | None = None,
     jobs: int = 1,
+    language: LanguageCode = "en",
     progress: Progress | None = None,
     fly: FlyLoaded = fly_loaded,
 ) -> StudyOutcome:
@@ -81,6 +85,7 @@ def study(
         out: folder for the study's, instead of the mission's in ``reports/``.
         seed: of every variant; by default the mission's first.
         jobs: flights at a time.
+        language: of the page.
         progress: is told of each flight as it ends.
         fly: flies one variant.
 
@@ -111,7 +116,8 @@ def study(
     )
     write_model(folder / "study.json", result)
     page = folder / "study.html"
-    write_whole(page, study_html(result, chosen.explained, chosen.figure(result)))
+    document = study_document(result, chosen.explained, chosen.figure(result))
+    write_whole(page, html(document, language_of(language)))
     return StudyOutcome(result, folder, page)
 
 

@@ -24,6 +24,7 @@ from inspect_cli.metrics.spec import MetricSpec
 from inspect_cli.records import Reference, State, WallForce
 from inspect_cli.reporting.figures_study import PREDICTED, force_figure
 from inspect_cli.reporting.published import TABLE_IV
+from inspect_cli.reporting.text import say
 from inspect_cli.schema.loading import Loaded
 from inspect_cli.schema.study import StudyColumn
 
@@ -89,7 +90,7 @@ def _errors(scope: str, prefix: str, *, published: bool) -> tuple[StudyColumn, .
 
 FORCE = Study(
     title="Force estimate: observer gain and speed of the reference",
-    explained=(
+    explained=say(
         "The force of the momentum observer against the sensor in the wall, with the observer's "
         "gain K_I varied at the mission's speed and the speed v of approach and press varied at "
         "the platform's gain. “Flight” is take-off to landing, as published; “predicted” is the "

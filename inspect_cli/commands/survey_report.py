@@ -12,6 +12,7 @@ from inspect_cli.errors import InputError, LogError
 from inspect_cli.log.reader import RunLog, read_log
 from inspect_cli.metrics.evaluate import evaluate
 from inspect_cli.metrics.survey import joined_result
+from inspect_cli.reporting.language import LanguageCode
 from inspect_cli.reporting.report import write_report
 from inspect_cli.reporting.survey import write_survey_report
 from inspect_cli.schema.coverage import CoveragePlan, Sortie
@@ -47,7 +48,9 @@ def survey_of(run: Path) -> CoveragePlan | None:
         return None  # the log carries the plan of a single flight
 
 
-def report_survey(run: Path, survey: CoveragePlan, folder: Path) -> tuple[Result, Path]:
+def report_survey(
+    run: Path, survey: CoveragePlan, folder: Path, language: LanguageCode = "en"
+) -> tuple[Result, Path]:
     """Score and report every sortie that was flown, and the survey they make together.
 
     Raises:
@@ -64,7 +67,7 @@ def report_survey(run: Path, survey: CoveragePlan, folder: Path) -> tuple[Result
         own = folder / sortie.folder
         own.mkdir(parents=True, exist_ok=True)
         write_model(own / "metrics.json", result)
-        write_report(log, result, own)
+        write_report(log, result, own, language)
         results.append(result)
         first = first or log
     if first is None:
@@ -73,7 +76,8 @@ def report_survey(run: Path, survey: CoveragePlan, folder: Path) -> tuple[Result
     unvisited = survey.joined().targets[flown:]
     joined = joined_result(results, unvisited, first.mission().acceptance, _seed(run))
     write_model(folder / "metrics.json", joined)
-    return joined, write_survey_report(first, joined, results, survey, folder)
+    page = write_survey_report(first, joined, results, survey, folder, language)
+    return joined, page
 
 
 def _flown(run: Path, survey: CoveragePlan) -> list[tuple[Sortie, Path]]:

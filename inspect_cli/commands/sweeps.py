@@ -16,6 +16,7 @@ from pydantic import BaseModel, ValidationError
 from inspect_cli.errors import InputError
 from inspect_cli.metrics.spec import MetricSpec
 from inspect_cli.reporting.figure import Figure
+from inspect_cli.reporting.text import Text
 from inspect_cli.schema.loading import Loaded
 from inspect_cli.schema.study import Quantity, StudyColumn, StudyResult
 
@@ -53,7 +54,7 @@ class Study:
     """What is varied, what is shown of it, and one figure."""
 
     title: str
-    explained: str
+    explained: Text
     """What is varied and against what it is held, in sentences for the page."""
     factors: tuple[Factor, ...]
     columns: tuple[StudyColumn, ...]

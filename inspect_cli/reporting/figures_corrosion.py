@@ -15,8 +15,8 @@ from inspect_cli.reporting.potential_scale import (
     PASSIVE_ABOVE_MV,
     hover_text,
     potential_range,
-    signed,
 )
+from inspect_cli.reporting.text import number, say
 
 PERCENTS = (1, 2, 5, 10, 20, 30, 50, 70, 80, 90, 95, 98, 99)
 TEXT_SIDES = ("top center", "bottom center", "middle right", "middle left")
@@ -52,7 +52,12 @@ def cumulative_figure(points: Sequence[ReadPoint]) -> Figure | None:
             "line": {"width": 1, "color": INK},
         },
         "customdata": [
-            f"{words(p.point.label)}: {signed(p.point.potential_mv)} mV at {100 * share:.1f} %"
+            say(
+                "{label}: {potential} mV at {share} %",
+                label=words(p.point.label),
+                potential=number(p.point.potential_mv, 0),
+                share=number(100 * share, 1),
+            )
             for p, share in zip(ordered, shares, strict=True)
         ],
         "hovertemplate": "%{customdata}<extra></extra>",
@@ -62,20 +67,22 @@ def cumulative_figure(points: Sequence[ReadPoint]) -> Figure | None:
     layout: Json = {
         "hovermode": "closest",
         "xaxis": {
-            "title": {"text": "share of readings at least as positive (%), normal scale"},
+            "title": {"text": say("share of readings at least as positive (%), normal scale")},
             "tickvals": [normal.inv_cdf(percent / 100.0) for percent in PERCENTS],
             "ticktext": [str(percent) for percent in PERCENTS],
             "range": ends,
         },
-        "yaxis": {"title": {"text": "potential (mV CSE)"}, "range": [low, high]},
+        "yaxis": {"title": {"text": say("potential (mV CSE)")}, "range": [low, high]},
         "shapes": [_boundary("y", value) for value in (PASSIVE_ABOVE_MV, ACTIVE_BELOW_MV)],
     }
     return Figure(
         "cumulative",
-        "Cumulative frequency of the valid readings, plotting position k / (n + 1). Dashed: the "
-        "class boundaries of ASTM C876. One straight line is one population; a bend tells of "
-        "passive and active steel side by side.",
-        f"Cumulative frequency diagram of {len(valid)} potentials.",
+        say(
+            "Cumulative frequency of the valid readings, plotting position k / (n + 1). Dashed: "
+            "the class boundaries of ASTM C876. One straight line is one population; a bend tells "
+            "of passive and active steel side by side."
+        ),
+        say("Cumulative frequency diagram of {n} potentials.", n=number(len(valid), 0)),
         [trace],
         layout,
         360,
@@ -99,7 +106,7 @@ def resistivity_figure(points: Sequence[ReadPoint]) -> Figure | None:
                 {
                     "type": "scatter",
                     "mode": "markers+text",
-                    "name": f"corrosion: {style.label}",
+                    "name": say("corrosion: {verdict}", verdict=style.label),
                     "x": [p.point.potential_mv for p in own],
                     "y": [p.point.resistivity_ohm_m for p in own],
                     "text": [words(p.point.label) if name != "none" else "" for p in own],
@@ -119,9 +126,9 @@ def resistivity_figure(points: Sequence[ReadPoint]) -> Figure | None:
     layout: Json = {
         "hovermode": "closest",
         "showlegend": True,
-        "xaxis": {"title": {"text": "potential (mV CSE)"}, "range": [low, high]},
+        "xaxis": {"title": {"text": say("potential (mV CSE)")}, "range": [low, high]},
         "yaxis": {
-            "title": {"text": "resistivity (Ω·m), log scale"},
+            "title": {"text": say("resistivity (Ω·m), log scale")},
             "type": "log",
             "range": _decades(known),
             "tickvals": [m * 10**e for e in range(-1, 6) for m in (1, 2, 5)],
@@ -134,9 +141,11 @@ def resistivity_figure(points: Sequence[ReadPoint]) -> Figure | None:
     }
     return Figure(
         "resistivity",
-        "Potential against resistivity of the valid readings. Dashed: the boundaries of the "
-        "combined rule; shaded: where it says active. 10 Ω·m are 1 kΩ·cm.",
-        f"Scatter of potential against resistivity of {len(known)} readings.",
+        say(
+            "Potential against resistivity of the valid readings. Dashed: the boundaries of the "
+            "combined rule; shaded: where it says active. 10 Ω·m are 1 kΩ·cm."
+        ),
+        say("Scatter of potential against resistivity of {n} readings.", n=number(len(known), 0)),
         traces,
         layout,
         360,

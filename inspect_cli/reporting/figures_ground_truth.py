@@ -144,7 +144,13 @@ def rmse_table(result: Result) -> list[Block]:
         value = ours[name]
         ratio = NOTHING if value is None else significant(value / published, 2)
         rows.append(
-            [indexed(what) if "_" in what else recorded(what), significant(value, 3), significant(published), unit, ratio]
+            [
+                indexed(what) if "_" in what else recorded(what),
+                significant(value, 3),
+                significant(published),
+                unit,
+                ratio,
+            ]
         )
     columns = [
         Column(say("Estimate")),

@@ -16,8 +16,8 @@ from inspect_cli.reporting.potential_scale import (
     colours,
     hover_text,
     potential_range,
-    signed,
 )
+from inspect_cli.reporting.text import Text, number, say, sentences, significant, together
 from inspect_cli.schema.plan import Plan, PlannedSurface
 
 SAME_LINE_M = 1e-3
@@ -69,22 +69,39 @@ def _map(
             "constrain": "domain",
         },
     }
-    shown = (
-        "Contours are interpolated linearly between neighbouring valid readings, "
-        f"one every {STEP_MV:g} mV; the heavy lines are the class boundaries, "
-        f"{signed(ACTIVE_BELOW_MV)} and {signed(PASSIVE_ABOVE_MV)} mV. "
-        if grid is not None
-        else ""
-    )
     return Figure(
         f"map-{k + 1}",
-        f"Half-cell potential on surface “{surface.name}” in mV against copper/copper sulphate, "
-        "at the planned points, seen from the side that was touched (on a wall u runs to the "
-        f"right, v up). {shown}Crosses are invalid readings; they carry no value.",
-        f"Map of {len(valid)} valid and {len(invalid)} invalid half-cell readings.",
+        _caption(surface.name, contoured=grid is not None),
+        say(
+            "Map of {valid} valid and {invalid} invalid half-cell readings.",
+            valid=number(len(valid), 0),
+            invalid=number(len(invalid), 0),
+        ),
         traces,
         layout,
         MAP_FRAME_PX + int(min(max(height_px, 160.0), 560.0)),
+    )
+
+
+def _caption(surface: str, *, contoured: bool) -> Text:
+    contours = say(
+        "Contours are interpolated linearly between neighbouring valid readings, one every {step} "
+        "mV; the heavy lines are the class boundaries, {active} and {passive} mV.",
+        step=significant(STEP_MV),
+        active=number(ACTIVE_BELOW_MV, 0),
+        passive=number(PASSIVE_ABOVE_MV, 0),
+    )
+    return sentences(
+        [
+            say(
+                "Half-cell potential on surface “{surface}” in mV against copper/copper sulphate, "
+                "at the planned points, seen from the side that was touched (on a wall u runs to "
+                "the right, v up).",
+                surface=surface,
+            ),
+            contours if contoured else "",
+            say("Crosses are invalid readings; they carry no value."),
+        ]
     )
 
 
@@ -188,7 +205,7 @@ def _valid_markers(points: Sequence[ReadPoint], everywhere: Sequence[ReadPoint])
         traces.append(
             {
                 **_markers(own, style.symbol, MARKER_PX),
-                "name": f"{style.label} (ASTM C876)",
+                "name": together(style.label, " (ASTM C876)"),
                 "mode": "markers",
                 "marker": {
                     "symbol": style.symbol,
@@ -222,7 +239,12 @@ def _invalid_markers(points: Sequence[ReadPoint]) -> list[Json]:
             "name": style.label,
             "mode": "markers",
             "customdata": [
-                words(f"{p.point.label}: no valid reading, {p.point.reason}") for p in points
+                say(
+                    "{label}: no valid reading, {reason}",
+                    label=words(p.point.label),
+                    reason=words(p.reason),
+                )
+                for p in points
             ],
         }
     ]
@@ -236,7 +258,7 @@ def _labels(valid: Sequence[ReadPoint], invalid: Sequence[ReadPoint]) -> list[Js
     written = len(valid) <= MAX_WRITTEN_VALUES
     sides = _text_sides([*valid, *invalid])
     labelled = [(p, _written(p)) for p in valid if written]
-    labelled += [(p, f"<b>{words(p.point.label)}</b>") for p in invalid]
+    labelled += [(p, _bold(p.point.label)) for p in invalid]
     if not labelled:
         return []
     return [
@@ -268,5 +290,9 @@ def _markers(points: Sequence[ReadPoint], symbol: str, size: int) -> Json:
     }
 
 
-def _written(p: ReadPoint) -> str:
-    return f"<b>{words(p.point.label)}</b><br>{signed(p.point.potential_mv)}"
+def _written(p: ReadPoint) -> Text:
+    return together(_bold(p.point.label), "<br>", number(p.point.potential_mv, 0))
+
+
+def _bold(label: str) -> Text:
+    return together("<b>", words(label), "</b>")

@@ -130,7 +130,7 @@ def _readings(points: Sequence[ReadPoint]) -> list[Json]:
         traces.append(colour_bar("scatter3d"))
     if invalid:
         marker = {"size": 5, "symbol": "x", "color": INK}
-        hover = [together(words(p.point.label), ": ", words(p.point.reason)) for p in invalid]
+        hover = [together(words(p.point.label), ": ", words(p.reason)) for p in invalid]
         traces.append(_markers(say("invalid readings"), invalid, marker, hover))
     return traces
 

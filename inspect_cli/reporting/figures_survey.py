@@ -15,7 +15,8 @@ from inspect_cli.reporting.palette import (
     SKY_BLUE,
     VERMILION,
 )
-from inspect_cli.schema.coverage import CoveragePlan
+from inspect_cli.reporting.text import Text, number, say, together
+from inspect_cli.schema.coverage import CoveragePlan, Sortie
 from inspect_cli.schema.plan import Plan
 from inspect_cli.schema.result import Result
 
@@ -36,9 +37,15 @@ def tour_figures(survey: CoveragePlan, plan: Plan) -> Iterator[Figure]:
         share = (max(v) - min(v) + 0.2) / (max(u) - min(u) + 0.2)
         yield Figure(
             f"tour-{k + 1}",
-            f"The sorties over surface “{surface}”, seen from the side that was touched: each "
-            "line is one flight from its first point to its last; crosses are points left out.",
-            f"Paths of {len(survey.sorties)} sorties over the surface.",
+            say(
+                "The sorties over surface “{surface}”, seen from the side that was touched: each "
+                "line is one flight from its first point to its last; crosses are points left out.",
+                surface=surface,
+            ),
+            say(
+                "Paths of {n} sorties over the surface.",
+                n=number(len(survey.sorties), 0),
+            ),
             traces,
             {
                 "hovermode": "closest",
@@ -62,7 +69,7 @@ def _paths(survey: CoveragePlan, surface: str) -> Iterator[Json]:
         yield {
             "type": "scatter",
             "mode": "lines+markers",
-            "name": f"sortie {sortie.number}" + (", added" if sortie.added else ""),
+            "name": _named(sortie),
             "x": [t.uv_m[0] for t in targets if t.uv_m],
             "y": [t.uv_m[1] for t in targets if t.uv_m],
             "line": {"color": colour, "width": 1.6, "dash": "dot" if sortie.added else "solid"},
@@ -72,11 +79,21 @@ def _paths(survey: CoveragePlan, surface: str) -> Iterator[Json]:
                 "color": colour,
             },
             "customdata": [
-                f"point {words(t.label)}, stop {place} of sortie {sortie.number}"
+                say(
+                    "point {label}, stop {place} of sortie {n}",
+                    label=words(t.label),
+                    place=number(place, 0),
+                    n=number(sortie.number, 0),
+                )
                 for place, t in enumerate(targets, 1)
             ],
             "hovertemplate": "%{customdata}<extra></extra>",
         }
+
+
+def _named(sortie: Sortie) -> Text:
+    n = number(sortie.number, 0)
+    return say("sortie {n}, added", n=n) if sortie.added else say("sortie {n}", n=n)
 
 
 def _left_out(survey: CoveragePlan, surface: str) -> Iterator[Json]:
@@ -85,34 +102,34 @@ def _left_out(survey: CoveragePlan, surface: str) -> Iterator[Json]:
         yield {
             "type": "scatter",
             "mode": "markers",
-            "name": "left out",
+            "name": say("left out"),
             "x": [point.uv_m[0] for point in points],
             "y": [point.uv_m[1] for point in points],
             "marker": {"symbol": "x-thin", "size": 10, "line": {"width": 2, "color": INK}},
-            "customdata": [f"{words(p.label)}: {words(p.reason)}" for p in points],
+            "customdata": [together(words(p.label), ": ", words(p.reason)) for p in points],
             "hovertemplate": "%{customdata}<extra></extra>",
         }
 
 
 def energy_figure(survey: CoveragePlan, flown: Sequence[Result]) -> Figure:
     """Planned beside flown energy of each sortie, under what a sortie may plan with."""
-    names = [f"sortie {sortie.number}" for sortie in survey.sorties]
+    names = [say("sortie {n}", n=number(sortie.number, 0)) for sortie in survey.sorties]
     metrics = [result.metrics.get("flight.energy_wh_flown") for result in flown]
     took = [metric.value if metric else None for metric in metrics]
     took += [None] * (len(names) - len(took))
     bars: list[Json] = [
         {
             "type": "bar",
-            "name": "planned",
+            "name": say("planned"),
             "x": names,
             "y": [sortie.plan.energy_wh for sortie in survey.sorties],
             "marker": {"color": MUTED, "pattern": {"shape": "/"}},
         },
-        {"type": "bar", "name": "flown", "x": names, "y": took, "marker": {"color": GREEN}},
+        {"type": "bar", "name": say("flown"), "x": names, "y": took, "marker": {"color": GREEN}},
         {
             "type": "scatter",
             "mode": "lines",
-            "name": "battery less reserve",
+            "name": say("battery less reserve"),
             "x": names,
             "y": [survey.budget_wh] * len(names),
             "line": {"color": INK, "dash": "dash", "width": 1.2},
@@ -120,11 +137,16 @@ def energy_figure(survey: CoveragePlan, flown: Sequence[Result]) -> Figure:
     ]
     return Figure(
         "sortie-energy",
-        "Energy of each sortie: as planned from hover powers, and as flown from the true speeds "
-        "of the rotors. Dashed: what a sortie may plan with; what it takes beyond that is from the "
-        "reserve.",
-        "Bars of planned and flown energy for each sortie.",
+        say(
+            "Energy of each sortie: as planned from hover powers, and as flown from the true "
+            "speeds of the rotors. Dashed: what a sortie may plan with; what it takes beyond that "
+            "is from the reserve."
+        ),
+        say("Bars of planned and flown energy for each sortie."),
         bars,
-        {"barmode": "group", "yaxis": {"title": {"text": "energy (Wh)"}, "rangemode": "tozero"}},
+        {
+            "barmode": "group",
+            "yaxis": {"title": {"text": say("energy (Wh)")}, "rangemode": "tozero"},
+        },
         300,
     )

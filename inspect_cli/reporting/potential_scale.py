@@ -10,6 +10,8 @@ from inspect_cli.assessment.classes import ACTIVE_BELOW_V, PASSIVE_ABOVE_V
 from inspect_cli.reporting.figure import Json, words
 from inspect_cli.reporting.palette import POTENTIAL_STOPS
 from inspect_cli.reporting.points import ReadPoint
+from inspect_cli.reporting.recorded import recorded
+from inspect_cli.reporting.text import NOTHING, Text, number, say, separated, together
 
 PASSIVE_ABOVE_MV = 1e3 * PASSIVE_ABOVE_V
 ACTIVE_BELOW_MV = 1e3 * ACTIVE_BELOW_V
@@ -94,19 +96,20 @@ def colour_axis(points: Sequence[ReadPoint]) -> Json:
     }
 
 
-def signed(value: float | None) -> str:
-    """A potential in whole millivolts with a true minus; empty when there is none."""
-    return "" if value is None else f"{value:.0f}".replace("-", "\u2212")
-
-
-def hover_text(p: ReadPoint) -> str:
+def hover_text(p: ReadPoint) -> Text:
     """What a figure says of a valid reading under the pointer."""
     point = p.point
     ohm_m = point.resistivity_ohm_m
-    lines = [
-        f"point {point.label}: {signed(point.potential_mv)} mV CSE",
-        f"ASTM C876: {point.astm_class}",
-        "resistivity unknown" if ohm_m is None else f"resistivity {ohm_m:.0f} Ω·m",
-        f"combined verdict: {point.corrosion}",
+    lines: list[Text] = [
+        say(
+            "point {label}: {potential} mV CSE",
+            label=words(point.label),
+            potential=number(point.potential_mv, 0),
+        ),
+        together("ASTM C876: ", recorded(point.astm_class or NOTHING)),
+        say("resistivity unknown")
+        if ohm_m is None
+        else say("resistivity {resistivity} Ω·m", resistivity=number(ohm_m, 0)),
+        say("combined verdict: {verdict}", verdict=recorded(point.corrosion or NOTHING)),
     ]
-    return "<br>".join(words(line) for line in lines)
+    return separated(lines, "<br>")

@@ -16,6 +16,7 @@ from inspect_cli.reporting.content import (
 )
 from inspect_cli.reporting.text import (
     NOTHING,
+    Text,
     code,
     number,
     say,
@@ -63,7 +64,7 @@ def _versions(log: RunLog) -> list[Block]:
 
 
 def _files(log: RunLog) -> Table:
-    rows = [
+    rows: list[list[Text]] = [
         [name, number(len(data), 0), code(hashlib.sha256(data).hexdigest())]
         for name, data in sorted(log.attachments.items())
     ]

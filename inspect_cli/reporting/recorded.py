@@ -1,8 +1,8 @@
-"""What results and plans say in English words of ours, known again so that it can be translated.
+"""What results and plans say in our own English, known again so that it can be translated.
 
-``metrics.json`` and ``plan.json`` are written once, in English: why a point is invalid, why a metric
-is not measured, how a flight ended, which class a reading has. A report knows these sentences by
-their templates. What it does not know is somebody else's and is shown as it stands.
+``metrics.json`` and ``plan.json`` are written once, in English: why a point is invalid, why a
+metric is not measured, how a flight ended, which class a reading has. A report knows these
+sentences by their templates. What it does not know is somebody else's and is shown as it stands.
 """
 
 from __future__ import annotations

@@ -10,8 +10,16 @@ from inspect_cli.files import write_whole
 from inspect_cli.log.reader import RunLog
 from inspect_cli.records import Reference
 from inspect_cli.reporting.checks_table import checks_table
+from inspect_cli.reporting.content import (
+    Block,
+    Cover,
+    Document,
+    Heading,
+    Paragraph,
+    Section,
+    drawn,
+)
 from inspect_cli.reporting.experiments import experiment_sections
-from inspect_cli.reporting.figure import drawn
 from inspect_cli.reporting.figures_corrosion import cumulative_figure, resistivity_figure
 from inspect_cli.reporting.figures_forces import (
     actuator_figures,
@@ -22,23 +30,23 @@ from inspect_cli.reporting.figures_map import map_figures
 from inspect_cli.reporting.figures_modes import modes_figure
 from inspect_cli.reporting.figures_scene import scene_figure
 from inspect_cli.reporting.figures_tracking import tracking_figures
-from inspect_cli.reporting.markup import Markup, element, joined
-from inspect_cli.reporting.page import Section, page
+from inspect_cli.reporting.html import html
+from inspect_cli.reporting.language import LanguageCode
+from inspect_cli.reporting.language import language as language_of
 from inspect_cli.reporting.points import ReadPoint, read_points
 from inspect_cli.reporting.provenance import provenance
 from inspect_cli.reporting.readings_csv import readings_csv
+from inspect_cli.reporting.recorded import recorded
 from inspect_cli.reporting.rows import rows_of
 from inspect_cli.reporting.summary import (
     caveats,
     finding,
-    finding_markup,
+    findings,
     is_simulated,
     key_figures,
     method,
     warnings,
-    warnings_markup,
 )
-from inspect_cli.reporting.table import NOTHING, definitions
 from inspect_cli.reporting.tables import (
     classes_table,
     events_table,
@@ -48,8 +56,10 @@ from inspect_cli.reporting.tables import (
     truth_table,
     verdicts_table,
 )
+from inspect_cli.reporting.text import NOTHING, Badge, Said, Text, say, sentences, strong
 from inspect_cli.reporting.timeline import Timeline, timeline_of
-from inspect_cli.reporting.works import Works, kicker, told, works_of
+from inspect_cli.reporting.told import told
+from inspect_cli.reporting.works import Works, kicker, works_of
 from inspect_cli.schema.plan import Plan
 from inspect_cli.schema.result import Result
 
@@ -57,11 +67,12 @@ REPORT_NAME = "report.html"
 READINGS_NAME = "readings.csv"
 
 
-def write_report(log: RunLog, result: Result, folder: Path) -> Path:
+def write_report(log: RunLog, result: Result, folder: Path, language: LanguageCode = "en") -> Path:
     """Write ``report.html`` and ``readings.csv`` into ``folder``; return the page's path.
 
     The page is one file that needs no network. It draws what ``result`` and ``log`` hold and
-    computes no finding; the same log and result give the same bytes.
+    computes no finding; the same log and result give the same bytes. ``readings.csv`` is for
+    programs and the same in every language.
 
     Raises:
         LogError: the log lacks the attachments that the report stands on.
@@ -70,81 +81,79 @@ def write_report(log: RunLog, result: Result, folder: Path) -> Path:
     plan = log.plan()
     write_whole(folder / READINGS_NAME, readings_csv(result, plan))
     path = folder / REPORT_NAME
-    write_whole(path, report_html(log, result, plan))
+    write_whole(path, html(report_document(log, result, plan), language_of(language)))
     return path
 
 
-def report_html(log: RunLog, result: Result, plan: Plan) -> str:
-    """The page as text."""
+def report_document(log: RunLog, result: Result, plan: Plan) -> Document:
+    """What the report of a flight says, in no language yet."""
     points = read_points(result, plan)
     works = works_of(log, plan)
     timeline = timeline_of(rows_of(log, Reference), plan)
     title = log.mission().title or result.mission
-    sections = [Section("summary", "Summary", summary(log, result, works, points))]
+    sections = [Section("summary", say("Summary"), summary(log, result, works, points))]
     if points:
-        sections.append(Section("survey", "Corrosion survey", survey_content(log, plan, points)))
+        content = survey_content(log, plan, points)
+        sections.append(Section("survey", say("Corrosion survey"), content))
     sections += experiment_sections(log, result, plan, works, timeline)
     flight = _flight(log, result, plan, works, points, timeline)
-    sections.append(Section("flight", "Flight", flight))
+    sections.append(Section("flight", say("Flight"), flight, on_paper=False))
     if plan.surfaces:
-        sections.append(Section("structure", "Structure", fits_table(plan)))
-    sections.append(Section("provenance", "Provenance", provenance(log, result, plan)))
-    kind = "inspection report" if points else "flight report"
-    return page(f"{title} – {kind}", header(log, result, works, title), sections)
+        sections.append(Section("structure", say("Structure"), [fits_table(plan)]))
+    sections.append(Section("provenance", say("Provenance"), provenance(log, result, plan)))
+    whole = (
+        say("{title} – inspection report", title=title)
+        if points
+        else say("{title} – flight report", title=title)
+    )
+    return Document(whole, cover(log, result, works, title), sections)
 
 
-def header(log: RunLog, result: Result, works: Works, title: str) -> Markup:
+def cover(log: RunLog, result: Result, works: Works, title: str) -> Cover:
     """What was flown, with what, and how it ended."""
     mission, platform = log.mission(), log.platform()
-    description = mission.description
-    facts = [
-        ("Mission", result.mission),
-        ("Platform", platform.title or result.platform),
-        ("Seed", NOTHING if result.seed is None else str(result.seed)),
-        ("Kind", "simulated flight" if is_simulated(log) else "flight"),
-        ("Status", element("span", result.status, class_=f"badge {result.status}")),
+    facts: list[tuple[Text, Text]] = [
+        (say("Mission"), result.mission),
+        (say("Platform"), platform.title or result.platform),
+        (say("Seed"), NOTHING if result.seed is None else str(result.seed)),
+        (say("Kind"), say("simulated flight") if is_simulated(log) else say("flight")),
+        (say("Status"), Badge(recorded(result.status), result.status)),
     ]
-    return joined(
-        element("p", kicker(works), class_="kicker"),
-        element("h1", title),
-        element("p", description, class_="description") if description else "",
-        definitions(facts),
-    )
+    return Cover(kicker(works), title, mission.description, facts)
 
 
-def summary(log: RunLog, result: Result, works: Works, points: Sequence[ReadPoint]) -> Markup:
+def summary(log: RunLog, result: Result, works: Works, points: Sequence[ReadPoint]) -> list[Block]:
     """Warnings, finding, key figures, checks, caveats."""
     checks = (
         checks_table(result.checks)
         if result.checks
-        else element("p", "The mission states no acceptance.")
+        else Paragraph(say("The mission states no acceptance."))
     )
-    return joined(
-        warnings_markup(warnings(result, log.mission().expect_status)),
-        finding_markup([*finding(points), *told(works, result)]),
+    return [
+        *warnings(result, log.mission().expect_status),
+        *finding([*findings(points), *told(works, result)]),
         key_figures(result, works, points),
         checks,
-        element("h3", "What this report does not say"),
+        Heading(say("What this report does not say")),
         caveats(log, result, points),
-    )
+    ]
 
 
-def survey_content(log: RunLog, plan: Plan, points: Sequence[ReadPoint]) -> Markup:
+def survey_content(log: RunLog, plan: Plan, points: Sequence[ReadPoint]) -> list[Block]:
     """The readings: map, tables, diagrams, and how they were taken."""
     diagrams = [cumulative_figure(points), resistivity_figure(points)]
-    return joined(
-        drawn(map_figures(points, plan)),
+    rule = sentences([strong(say("Rule of the combined verdict.")), Said(COMBINED_RULE)])
+    return [
+        *drawn(map_figures(points, plan)),
         points_table(points),
-        truth_table(points),
+        *truth_table(points),
         classes_table(points),
         verdicts_table(points),
-        element(
-            "p", element("strong", "Rule of the combined verdict. "), COMBINED_RULE, class_="rule"
-        ),
-        drawn((d for d in diagrams if d is not None), side_by_side=True),
-        element("h3", "How the readings were taken"),
-        definitions(method(log, plan)),
-    )
+        Paragraph(rule, "rule"),
+        *drawn((d for d in diagrams if d is not None), side_by_side=True),
+        Heading(say("How the readings were taken")),
+        method(log, plan),
+    ]
 
 
 def _flight(
@@ -154,39 +163,42 @@ def _flight(
     works: Works,
     points: Sequence[ReadPoint],
     timeline: Timeline,
-) -> Markup:
+) -> list[Block]:
     modes = modes_figure(log)
-    return joined(
-        element("h3", "Pose tracking"),
-        drawn(tracking_figures(log, timeline), side_by_side=True),
-        metrics_table("Errors of tracking and estimation.", result, ("tracking", "estimation")),
-        _forces(log, result, plan, works, timeline),
-        element("h3", "Actuators"),
-        drawn(actuator_figures(log, timeline)),
-        element("h3", "Path in space"),
-        drawn([scene_figure(log, plan, points)]),
-        element("h3", "Modes and events"),
-        drawn([modes] if modes else []),
-        events_table(log),
-        metrics_table("Other metrics.", result, _other_groups(result, works)),
-    )
+    errors = say("Errors of tracking and estimation.")
+    return [
+        Heading(say("Pose tracking")),
+        *drawn(tracking_figures(log, timeline), side_by_side=True),
+        *metrics_table(errors, result, ("tracking", "estimation")),
+        *_forces(log, result, plan, works, timeline),
+        Heading(say("Actuators")),
+        *drawn(actuator_figures(log, timeline)),
+        Heading(say("Path in space")),
+        *drawn([scene_figure(log, plan, points)]),
+        Heading(say("Modes and events")),
+        *drawn([modes] if modes else []),
+        *events_table(log),
+        *metrics_table(say("Other metrics."), result, _other_groups(result, works)),
+    ]
 
 
-def _forces(log: RunLog, result: Result, plan: Plan, works: Works, timeline: Timeline) -> Markup:
+def _forces(
+    log: RunLog, result: Result, plan: Plan, works: Works, timeline: Timeline
+) -> list[Block]:
     """What it pressed with and what it saw; where nothing was touched, what it felt."""
     forces = list(force_figures(log, plan, timeline))
     if not works.touches:
         wrench = [figure for figure in forces if figure.name != "force"]
-        return joined(element("h3", "External wrench"), drawn(wrench, side_by_side=True))
-    caption = "Contact and readings." if works.readings else "Contact."
-    return joined(
-        element("h3", "Contact force and external wrench"),
-        drawn(forces[:1]),
-        drawn(forces[1:], side_by_side=True),
-        metrics_table(caption, result, _contact_groups(works)),
-        element("h3", "Surface seen by the depth camera"),
-        drawn(surface_figures(log, timeline)),
-    )
+        return [Heading(say("External wrench")), *drawn(wrench, side_by_side=True)]
+    caption = say("Contact and readings.") if works.readings else say("Contact.")
+    return [
+        Heading(say("Contact force and external wrench")),
+        *drawn(forces[:1]),
+        *drawn(forces[1:], side_by_side=True),
+        *metrics_table(caption, result, _contact_groups(works)),
+        Heading(say("Surface seen by the depth camera")),
+        *drawn(surface_figures(log, timeline)),
+    ]
 
 
 CONTACT_GROUPS = ("contact", "half_cell")

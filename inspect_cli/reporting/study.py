@@ -2,16 +2,39 @@
 
 from __future__ import annotations
 
-from inspect_cli.reporting.figure import Figure, drawn
-from inspect_cli.reporting.markup import Markup, element, joined
-from inspect_cli.reporting.page import Section, page
+from inspect_cli.reporting.content import (
+    Block,
+    Column,
+    Cover,
+    Document,
+    Notes,
+    Paragraph,
+    Section,
+    Table,
+    drawn,
+)
+from inspect_cli.reporting.figure import Figure
 from inspect_cli.reporting.published import SOURCE
-from inspect_cli.reporting.table import NOTHING, Column, chip, definitions, significant, table
+from inspect_cli.reporting.recorded import recorded
+from inspect_cli.reporting.tables import unit_shown
+from inspect_cli.reporting.text import (
+    NOTHING,
+    Chip,
+    Lines,
+    Said,
+    Text,
+    code,
+    number,
+    say,
+    sentences,
+    significant,
+    together,
+)
 from inspect_cli.schema.study import StudyResult, StudyVariant
 
 
-def study_html(study: StudyResult, explained: str, figure: Figure) -> str:
-    """The page as text; it draws what ``study`` holds and computes nothing.
+def study_document(study: StudyResult, explained: Text, figure: Figure) -> Document:
+    """What the page of a study says; it draws what ``study`` holds and computes nothing.
 
     Args:
         study: the flights' numbers.
@@ -19,76 +42,77 @@ def study_html(study: StudyResult, explained: str, figure: Figure) -> str:
         figure: the metrics against the quantities.
     """
     sections = [
-        Section("sweeps", "Sweeps", joined(element("p", explained), drawn([figure]))),
-        Section("variants", "Variants", joined(_shortfalls(study), _numbers(study))),
-        Section("flights", "Flights", _flights(study)),
+        Section("sweeps", say("Sweeps"), [Paragraph(explained), *drawn([figure])]),
+        Section("variants", say("Variants"), [*_shortfalls(study), _numbers(study)]),
+        Section("flights", say("Flights"), [_flights(study)]),
     ]
-    return page(f"{study.title} – study", _header(study), sections)
+    title = Said(study.title)
+    return Document(say("{title} – study", title=title), _cover(study, title), sections)
 
 
-def _header(study: StudyResult) -> list[Block]:
-    facts = [
-        ("Mission", study.mission),
-        ("Platform", study.platform),
-        ("Seed", str(study.seed)),
-        ("Kind", "simulated flights"),
-        ("Flights", str(len(study.variants))),
+def _cover(study: StudyResult, title: Text) -> Cover:
+    facts: list[tuple[Text, Text]] = [
+        (say("Mission"), study.mission),
+        (say("Platform"), study.platform),
+        (say("Seed"), str(study.seed)),
+        (say("Kind"), say("simulated flights")),
+        (say("Flights"), number(len(study.variants), 0)),
         *(
-            (f"{q.symbol} of the mission", f"{significant(q.base)} {q.unit}")
+            (
+                say("{symbol} of the mission", symbol=q.symbol),
+                together(significant(q.base), f" {q.unit}"),
+            )
             for q in study.quantities
         ),
     ]
-    kicker = element("p", "Study", class_="kicker")
-    return joined(kicker, element("h1", study.title), definitions(facts))
+    return Cover(say("Study"), title, "", facts)
 
 
 def _shortfalls(study: StudyResult) -> list[Block]:
     if not study.shortfalls:
-        return Markup("")
-    items = (element("li", text) for text in study.shortfalls)
-    return joined(
-        element("p", "Flights that ended otherwise than expected:"), element("ul", *items)
-    )
+        return []
+    return [
+        Paragraph(say("Flights that ended otherwise than expected:")),
+        Notes(study.shortfalls),
+    ]
 
 
-def _numbers(study: StudyResult) -> list[Block]:
+def _numbers(study: StudyResult) -> Table:
     quantities = [Column(q.symbol, q.unit, numeric=True) for q in study.quantities]
-    metrics = [Column(_lines(c.heading), _unit(c.unit), numeric=True) for c in study.columns]
-    rows = [
+    metrics = [Column(_lines(c.heading), unit_shown(c.unit), numeric=True) for c in study.columns]
+    rows: list[list[Text]] = [
         [
-            "mission" if _as_it_stands(study, variant) else "",
+            say("mission") if _as_it_stands(study, variant) else "",
             *(significant(variant.values[q.name]) for q in study.quantities),
             *(significant(variant.value(c.metric), 3) for c in study.columns),
         ]
         for variant in study.variants
     ]
-    published = [significant(c.published, 3) for c in study.columns]
-    caption = "Each variant's numbers; one of them is the mission as it stands."
-    if any(cell != NOTHING for cell in published):
-        rows.append(["published", *[NOTHING] * len(quantities), *published])
-        caption += f" Published: {SOURCE}."
-    return table(caption, [Column(""), *quantities, *metrics], rows, wide=True)
+    caption: list[Text] = [say("Each variant's numbers; one of them is the mission as it stands.")]
+    if any(column.published is not None for column in study.columns):
+        published = [significant(c.published, 3) for c in study.columns]
+        rows.append([say("published"), *[NOTHING] * len(quantities), *published])
+        caption.append(say("Published: {source}.", source=SOURCE))
+    return Table(sentences(caption), [Column(""), *quantities, *metrics], rows, wide=True)
 
 
 def _as_it_stands(study: StudyResult, variant: StudyVariant) -> bool:
     return all(variant.values[q.name] == q.base for q in study.quantities)
 
 
-def _lines(heading: str) -> list[Block]:
+def _lines(heading: str) -> Lines:
     """A heading broken at its commas, for a narrow column."""
-    first, *others = heading.split(", ")
-    return joined(first, *(joined(Markup("<br>"), other) for other in others))
+    return Lines(tuple(Said(part) for part in heading.split(", ")))
 
 
-def _unit(unit: str) -> str:
-    return "" if unit == "1" else unit
-
-
-def _flights(study: StudyResult) -> list[Block]:
-    rows = [
+def _flights(study: StudyResult) -> Table:
+    rows: list[list[Text]] = [
         [
-            element("code", variant.folder),
-            chip(variant.status, "pass" if variant.status == study.expect_status else "fail"),
+            code(variant.folder),
+            Chip(
+                recorded(variant.status),
+                "pass" if variant.status == study.expect_status else "fail",
+            ),
             ", ".join(variant.failed_checks) or NOTHING,
         ]
         for variant in study.variants
@@ -98,5 +122,5 @@ def _flights(study: StudyResult) -> list[Block]:
         Column(say("Status")),
         Column(say("Checks of the mission that this variant misses"), prose=True),
     ]
-    caption = "Each is a run of its own: “inspect report” makes its page."
-    return table(caption, columns, rows)
+    caption = say("Each is a run of its own: “inspect report” makes its page.")
+    return Table(caption, columns, rows)

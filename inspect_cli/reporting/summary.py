@@ -217,9 +217,7 @@ PUBLISHED_ELSEWHERE = say(
     "beside ours for comparison; what passes is decided by the mission's bounds alone.",
     source=SOURCE,
 )
-WITHOUT_TRUTH = say(
-    "Without the truth, errors are against what the vehicle itself believed."
-)
+WITHOUT_TRUTH = say("Without the truth, errors are against what the vehicle itself believed.")
 
 
 def caveats(log: RunLog, result: Result, points: Sequence[ReadPoint]) -> Notes:

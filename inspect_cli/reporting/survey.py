@@ -7,22 +7,42 @@ from pathlib import Path
 
 from inspect_cli.files import write_whole
 from inspect_cli.log.reader import RunLog
-from inspect_cli.reporting.figure import drawn
+from inspect_cli.reporting.content import (
+    Block,
+    Column,
+    Document,
+    Paragraph,
+    Section,
+    Table,
+    drawn,
+)
 from inspect_cli.reporting.figures_survey import energy_figure, tour_figures
-from inspect_cli.reporting.markup import Markup, element, joined
-from inspect_cli.reporting.page import Section, page
-from inspect_cli.reporting.points import ReadPoint, read_points
+from inspect_cli.reporting.html import html
+from inspect_cli.reporting.language import LanguageCode
+from inspect_cli.reporting.language import language as language_of
+from inspect_cli.reporting.points import read_points
 from inspect_cli.reporting.provenance import provenance
 from inspect_cli.reporting.readings_csv import readings_csv
+from inspect_cli.reporting.recorded import recorded
 from inspect_cli.reporting.report import (
     READINGS_NAME,
     REPORT_NAME,
-    header,
+    cover,
     summary,
     survey_content,
 )
-from inspect_cli.reporting.table import NOTHING, Column, chip, number, table
 from inspect_cli.reporting.tables import fits_table, metrics_table
+from inspect_cli.reporting.text import (
+    NOTHING,
+    Chip,
+    Link,
+    Text,
+    count,
+    number,
+    say,
+    sentences,
+    separated,
+)
 from inspect_cli.reporting.works import works_of
 from inspect_cli.schema.coverage import CoveragePlan, Skipped, Sortie
 from inspect_cli.schema.plan import Plan
@@ -30,7 +50,12 @@ from inspect_cli.schema.result import Result
 
 
 def write_survey_report(
-    log: RunLog, result: Result, flown: Sequence[Result], survey: CoveragePlan, folder: Path
+    log: RunLog,
+    result: Result,
+    flown: Sequence[Result],
+    survey: CoveragePlan,
+    folder: Path,
+    language: LanguageCode = "en",
 ) -> Path:
     """Write ``report.html`` and ``readings.csv`` into ``folder``; return the page's path.
 
@@ -40,69 +65,91 @@ def write_survey_report(
         flown: of the sorties that were flown, in their order.
         survey: as it was flown, with the sorties that were added on the way.
         folder: holds the sorties' own reports in folders of their own.
+        language: of the page.
     """
     plan = survey.joined()
     write_whole(folder / READINGS_NAME, readings_csv(result, plan))
     path = folder / REPORT_NAME
-    write_whole(path, survey_html(log, result, flown, survey, plan))
+    document = survey_document(log, result, flown, survey, plan)
+    write_whole(path, html(document, language_of(language)))
     return path
 
 
-def survey_html(
+def survey_document(
     log: RunLog, result: Result, flown: Sequence[Result], survey: CoveragePlan, plan: Plan
-) -> str:
-    """The page as text."""
+) -> Document:
+    """What the report of a survey says, in no language yet."""
     points = read_points(result, plan)
     title = log.mission().title or result.mission
     works = works_of(log, plan)
-    whole = summary(log, result, works, points)
+    whole = [Paragraph(_extent(survey)), *summary(log, result, works, points)]
     read = []
     if points:
-        read = [Section("survey", "Corrosion survey", survey_content(log, plan, points))]
+        content = survey_content(log, plan, points)
+        read = [Section("survey", say("Corrosion survey"), content)]
     sections = [
-        Section("summary", "Summary", joined(element("p", _extent(survey)), whole)),
+        Section("summary", say("Summary"), whole),
         *read,
-        Section("coverage", "Coverage", _coverage(survey, plan, points)),
-        Section("sorties", "Sorties", _sorties(survey, result, flown)),
-        Section("structure", "Structure", fits_table(plan)),
-        Section("provenance", "Provenance", _provenance(log, result, plan)),
+        Section("coverage", say("Coverage"), _coverage(survey, plan)),
+        Section("sorties", say("Sorties"), _sorties(survey, result, flown)),
+        Section("structure", say("Structure"), [fits_table(plan)]),
+        Section("provenance", say("Provenance"), _provenance(log, result, plan)),
     ]
-    return page(f"{title} – inspection report", header(log, result, works, title), sections)
+    page_title = say("{title} – inspection report", title=title)
+    return Document(page_title, cover(log, result, works, title), sections)
 
 
-def _coverage(survey: CoveragePlan, plan: Plan, points: Sequence[ReadPoint]) -> list[Block]:
+def _coverage(survey: CoveragePlan, plan: Plan) -> list[Block]:
     added = [t.label for s in survey.sorties if s.added for t in s.plan.targets]
-    sentences = [
+    told: list[Text] = [
         _extent(survey),
-        "The shortest way that was found through the standoffs of all points is "
-        f"{number(survey.tour_m, 1)} m, before it was split.",
+        say(
+            "The shortest way that was found through the standoffs of all points is {length} m, "
+            "before it was split.",
+            length=number(survey.tour_m, 1),
+        ),
     ]
     if added:
-        verb = "was" if len(added) == 1 else "were"
-        sentences.append(
-            f"{', '.join(added)} {verb} added by the refinement rule of ASTM C876, between "
-            "neighbours whose readings differ by more than the mission allows; a label names "
-            "those neighbours."
+        told.append(
+            count(
+                len(added),
+                "{labels} was added by the refinement rule of ASTM C876, between neighbours whose "
+                "readings differ by more than the mission allows; a label names those neighbours.",
+                "{labels} were added by the refinement rule of ASTM C876, between neighbours whose "
+                "readings differ by more than the mission allows; a label names those neighbours.",
+                labels=", ".join(added),
+            )
         )
-    return joined(
-        element("p", " ".join(sentences)),
-        drawn(tour_figures(survey, plan)),
-        _skipped_table(survey.skipped),
-    )
+    return [
+        Paragraph(sentences(told)),
+        *drawn(tour_figures(survey, plan)),
+        *_skipped_table(survey.skipped),
+    ]
 
 
-def _extent(survey: CoveragePlan) -> str:
+def _extent(survey: CoveragePlan) -> Text:
     """How much of the surface was asked for and how much was left out."""
-    left = len(survey.skipped)
-    out = "none was left out" if not left else f"{left} {'was' if left == 1 else 'were'} left out"
-    many = "sortie" if len(survey.sorties) == 1 else "sorties"
-    return f"{survey.points} points were planned in {len(survey.sorties)} {many}; {out}."
+    points = number(survey.points, 0)
+    sorties = count(len(survey.sorties), "{n} sortie", "{n} sorties")
+    if not survey.skipped:
+        return say(
+            "{points} points were planned in {sorties}; none was left out.",
+            points=points,
+            sorties=sorties,
+        )
+    return count(
+        len(survey.skipped),
+        "{points} points were planned in {sorties}; {n} was left out.",
+        "{points} points were planned in {sorties}; {n} were left out.",
+        points=points,
+        sorties=sorties,
+    )
 
 
 def _skipped_table(skipped: Sequence[Skipped]) -> list[Block]:
     if not skipped:
-        return Markup("")
-    rows = [
+        return []
+    rows: list[list[Text]] = [
         [point.label, point.surface, *(number(x, 3) for x in point.uv_m), point.reason]
         for point in skipped
     ]
@@ -113,7 +160,7 @@ def _skipped_table(skipped: Sequence[Skipped]) -> list[Block]:
         Column("v", "m", numeric=True),
         Column(say("Reason"), prose=True),
     ]
-    return table("Points that were left out, and why.", columns, rows)
+    return [Table(say("Points that were left out, and why."), columns, rows)]
 
 
 def _sorties(survey: CoveragePlan, result: Result, flown: Sequence[Result]) -> list[Block]:
@@ -131,48 +178,44 @@ def _sorties(survey: CoveragePlan, result: Result, flown: Sequence[Result]) -> l
         Column(say("Planned / flown"), numeric=True),
         Column(say("Remark"), prose=True),
     ]
-    caption = (
+    caption = say(
         "The sorties with their own reports. Planned energy is by the planner's momentum theory, "
-        "flown energy by the true speeds of the rotors; a sortie may plan with "
-        f"{number(survey.budget_wh, 1)} Wh, the battery less its reserve."
+        "flown energy by the true speeds of the rotors; a sortie may plan with {budget} Wh, the "
+        "battery less its reserve.",
+        budget=number(survey.budget_wh, 1),
     )
+    together = say("All sorties together: sums, worst cases and means.")
     shown = ("tracking", "estimation", "guidance", "contact", "half_cell", "flight", "actuators")
-    return joined(
-        table(caption, columns, rows, wide=True),
-        drawn([energy_figure(survey, flown)]),
-        metrics_table("All sorties together: sums, worst cases and means.", result, shown),
-    )
-
-
-def _sortie_row(sortie: Sortie, result: Result | None) -> list[str]:
-    remark = "added by the refinement rule" if sortie.added else ""
-    planned = [number(sortie.plan.duration_s, 0), number(sortie.plan.energy_wh, 1)]
-    total = str(len(sortie.plan.targets))
-    if result is None:
-        status = chip("not flown", "fail")
-        name = str(sortie.number)
-        cells = [NOTHING, planned[0], NOTHING, planned[1], NOTHING, NOTHING]
-        return [name, status, total, *cells, remark]
-    link = f"{sortie.folder}/{REPORT_NAME}"
     return [
-        element("a", f"Sortie {sortie.number}", href=link),
-        chip(result.status, "pass" if result.status == "completed" else "fail"),
-        total,
-        str(sum(point.valid for point in result.points)),
-        planned[0],
-        number(_value(result, "flight.duration_s"), 0),
-        planned[1],
-        number(_value(result, "flight.energy_wh_flown"), 1),
-        number(_value(result, "flight.energy_planned_over_flown"), 3),
-        "; ".join(part for part in (remark, result.status_reason) if part),
+        Table(caption, columns, rows, wide=True),
+        *drawn([energy_figure(survey, flown)]),
+        *metrics_table(together, result, shown),
     ]
 
 
-def _value(result: Result, name: str) -> float | None:
-    metric = result.metrics.get(name)
-    return metric.value if metric else None
+def _sortie_row(sortie: Sortie, result: Result | None) -> list[Text]:
+    remark = say("added by the refinement rule") if sortie.added else ""
+    planned = [number(sortie.plan.duration_s, 0), number(sortie.plan.energy_wh, 1)]
+    total = number(len(sortie.plan.targets), 0)
+    if result is None:
+        status = Chip(say("not flown"), "fail")
+        cells: list[Text] = [NOTHING, planned[0], NOTHING, planned[1], NOTHING, NOTHING]
+        return [str(sortie.number), status, total, *cells, remark]
+    name = say("Sortie {n}", n=str(sortie.number))
+    return [
+        Link(name, f"{sortie.folder}/{REPORT_NAME}"),
+        Chip(recorded(result.status), "pass" if result.status == "completed" else "fail"),
+        total,
+        number(sum(point.valid for point in result.points), 0),
+        planned[0],
+        number(result.value("flight.duration_s"), 0),
+        planned[1],
+        number(result.value("flight.energy_wh_flown"), 1),
+        number(result.value("flight.energy_planned_over_flown"), 3),
+        separated([remark, recorded(result.status_reason)], "; "),
+    ]
 
 
 def _provenance(log: RunLog, result: Result, plan: Plan) -> list[Block]:
-    note = "Attachments and versions are those of the first sortie; all fly with the same."
-    return joined(element("p", note), provenance(log, result, plan))
+    note = say("Attachments and versions are those of the first sortie; all fly with the same.")
+    return [Paragraph(note), *provenance(log, result, plan)]

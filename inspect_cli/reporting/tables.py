@@ -241,9 +241,7 @@ def _deviation(parameter: str, sd: float) -> Text:
     name, _, unit = parameter.rpartition("_")
     if unit not in ("m", "rad"):
         return together(parameter, " ± ", significant(sd, 2))
-    return together(
-        recorded(name.replace("_", " ")), " ± ", significant(1e3 * sd, 2), f" m{unit}"
-    )
+    return together(recorded(name.replace("_", " ")), " ± ", significant(1e3 * sd, 2), f" m{unit}")
 
 
 def events_table(log: RunLog) -> list[Block]:

@@ -155,9 +155,7 @@ def _pulled(works: Works, result: Result) -> Text:
     yaw = result.value("pull.yaw_max_rad")
     amount = _amount(works.pulls)
     if force is None:
-        return count(
-            works.pulls, "One pull at a cord.", "{amount} pulls at a cord.", amount=amount
-        )
+        return count(works.pulls, "One pull at a cord.", "{amount} pulls at a cord.", amount=amount)
     strength = significant(force, 2)
     if not moved or yaw is None:
         return count(

@@ -9,12 +9,13 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from inspect_cli.log.reader import RunLog
+from inspect_cli.reporting.content import Box
 from inspect_cli.reporting.figures_ground_truth import has_ground_truth
 from inspect_cli.reporting.figures_pulls import pull_phases
-from inspect_cli.reporting.content import Box
 from inspect_cli.reporting.text import Text, say, separated, significant, together
 from inspect_cli.schema.plan import Plan, Target
 from inspect_cli.schema.result import Result
+
 
 @dataclass(frozen=True)
 class Works:
