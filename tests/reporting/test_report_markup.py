@@ -9,9 +9,12 @@ import pytest
 from report_pages import decoded
 
 from inspect_cli.reporting.checks_table import bounds
+from inspect_cli.reporting.content import Column, Table
 from inspect_cli.reporting.figure import merged, numbers
+from inspect_cli.reporting.html import blocks
+from inspect_cli.reporting.language import language
 from inspect_cli.reporting.markup import Markup, data_script, element, joined
-from inspect_cli.reporting.table import Column, number, significant, table
+from inspect_cli.reporting.text import number, significant
 
 
 def test_elements_escape_text_and_attributes() -> None:
@@ -40,18 +43,20 @@ def test_columns_of_numbers_survive_anything() -> None:
 
 
 def test_numbers_for_readers() -> None:
-    assert number(-410.126, 0) == "−410"
-    assert number(2750.0, 0) == "2\u202f750"
-    assert number(None, 2) == "–"
-    assert significant(-0.0042271) == "−0.004227"
-    assert bounds(1.44, 2.16) == "1.44 … 2.16"
-    assert bounds(None, 20.0) == "≤ 20"
-    assert bounds(9.0, None) == "≥ 9"
-    assert bounds(6.0, 6.0) == "= 6"
+    plain = language("en").plain
+    assert plain(number(-410.126, 0)) == "−410"
+    assert plain(number(2750.0, 0)) == "2\u202f750"
+    assert plain(number(None, 2)) == "–"
+    assert plain(significant(-0.0042271)) == "−0.004227"
+    assert plain(bounds(1.44, 2.16)) == "1.44 … 2.16"
+    assert plain(bounds(None, 20.0)) == "≤ 20"
+    assert plain(bounds(9.0, None)) == "≥ 9"
+    assert plain(bounds(6.0, 6.0)) == "= 6"
 
 
 def test_tables_are_labelled() -> None:
-    html = table("A <caption>", [Column("Name"), Column("u", "m", numeric=True)], [["a", "1"]])
+    columns = [Column("Name"), Column("u", "m", numeric=True)]
+    html = blocks([Table("A <caption>", columns, [["a", "1"]])], language("en"))
     assert "<caption>A &lt;caption&gt;</caption>" in html
     assert 'aria-label="A &lt;caption&gt;"' in html
     assert '<th scope="row">a</th><td class="number">1</td>' in html

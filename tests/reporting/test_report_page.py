@@ -26,7 +26,9 @@ from inspect_cli.records import (
     SurfaceEstimate,
     TrueContact,
 )
-from inspect_cli.reporting.report import report_html, write_report
+from inspect_cli.reporting.html import html
+from inspect_cli.reporting.language import language
+from inspect_cli.reporting.report import report_document, write_report
 from inspect_cli.schema.result import Metric
 
 Fly = Callable[..., Flight]
@@ -121,9 +123,9 @@ def test_a_long_flight_stays_small_and_quick(fly: Fly) -> None:
     log = flight.log()
     result = evaluate(log)
     begin = time.process_time()
-    html = report_html(log, result, log.plan())
+    page = html(report_document(log, result, log.plan()), language("en"))
     assert time.process_time() - begin < 2.0
-    assert len(html.encode()) - len(get_plotlyjs().encode()) < 3e6
+    assert len(page.encode()) - len(get_plotlyjs().encode()) < 3e6
 
 
 def test_what_a_user_wrote_is_text(fly: Fly, report: Report) -> None:
@@ -269,7 +271,7 @@ def test_a_bumped_body_and_motion_at_the_end_are_warned_of(fly: Fly, report: Rep
         "flight.duration_s": Metric(value=4321.4, unit="s"),
     }
     result = reported.result.model_copy(update={"metrics": reported.result.metrics | bad})
-    page = Page(report_html(log, result, flight.plan))
+    page = Page(html(report_document(log, result, flight.plan), language("en")))
     assert any(a.get("class") == "warnings" for _, a in page.tags)
     assert "The vehicle's body touched something: 263 N." in page.text
     assert "The vehicle was still moving at the end: 0.41 m/s." in page.text
