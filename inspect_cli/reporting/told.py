@@ -8,19 +8,17 @@ from inspect_cli.reporting.text import Amount, Text, count, number, say, signifi
 from inspect_cli.reporting.works import Works
 from inspect_cli.schema.result import Result
 
-SMALL_NUMBERS = (
-    (say("No"), say("no")),
-    (say("One"), say("one")),
-    (say("Two"), say("two")),
-    (say("Three"), say("three")),
-    (say("Four"), say("four")),
-    (say("Five"), say("five")),
-    (say("Six"), say("six")),
-    (say("Seven"), say("seven")),
-    (say("Eight"), say("eight")),
-    (say("Nine"), say("nine")),
-)
-"""As a sentence begins with them, and as they stand within it."""
+SMALL_NUMBERS = {
+    2: (say("Two"), say("two")),
+    3: (say("Three"), say("three")),
+    4: (say("Four"), say("four")),
+    5: (say("Five"), say("five")),
+    6: (say("Six"), say("six")),
+    7: (say("Seven"), say("seven")),
+    8: (say("Eight"), say("eight")),
+    9: (say("Nine"), say("nine")),
+}
+"""As a sentence begins with them, and as they stand within it; one has a sentence of its own."""
 
 
 def told(works: Works, result: Result) -> list[Text]:
@@ -218,7 +216,7 @@ def _estimated(works: Works, result: Result) -> Iterator[Text]:
 
 def _amount(n: int, place: int = 0) -> Text:
     """A small number in words; at the beginning of a sentence, or (1) within it."""
-    return SMALL_NUMBERS[n][place] if n < len(SMALL_NUMBERS) else number(n, 0)
+    return SMALL_NUMBERS[n][place] if n in SMALL_NUMBERS else number(n, 0)
 
 
 def _millimetres(result: Result, metric: str) -> Amount | None:
