@@ -8,13 +8,27 @@ from inspect_cli.log.reader import RunLog
 from inspect_cli.records import Mode, Reference
 from inspect_cli.reporting.figure import Figure, Json, numbers, words
 from inspect_cli.reporting.palette import INK, MODE_COLOURS, MUTED, VERMILION
+from inspect_cli.reporting.recorded import recorded
 from inspect_cli.reporting.rows import rows_of
 from inspect_cli.reporting.tables import QUIET_LEVELS
-from inspect_cli.reporting.text import say
+from inspect_cli.reporting.text import say, together
 from inspect_cli.spatial.arrays import Structured
 
 ROW_PX = 24
-EVENTS_ROW = "EVENTS"
+EVENTS_ROW = say("EVENTS")
+MODE_NAMES = {
+    Mode.IDLE: say("IDLE"),
+    Mode.TAKEOFF: say("TAKEOFF"),
+    Mode.TRANSIT: say("TRANSIT"),
+    Mode.HOLD: say("HOLD"),
+    Mode.APPROACH: say("APPROACH"),
+    Mode.PRESS: say("PRESS"),
+    Mode.SLIDE: say("SLIDE"),
+    Mode.RETREAT: say("RETREAT"),
+    Mode.LAND: say("LAND"),
+    Mode.LANDED: say("LANDED"),
+    Mode.HOVER: say("HOVER"),
+}
 
 
 def modes_figure(log: RunLog) -> Figure | None:
@@ -27,7 +41,7 @@ def modes_figure(log: RunLog) -> Figure | None:
     traces: list[Json] = [
         _bars(mode, [(start, end) for m, start, end in stretches if m == mode]) for mode in flown
     ]
-    rows = [mode.name for mode in flown]
+    rows = [MODE_NAMES[mode] for mode in flown]
     if log.events:
         traces.append(_events(log))
         rows.append(EVENTS_ROW)
@@ -79,12 +93,14 @@ def _bars(mode: Mode, spans: list[tuple[float, float]]) -> Json:
     return {
         "type": "bar",
         "orientation": "h",
-        "y": [mode.name] * len(spans),
+        "y": [MODE_NAMES[mode]] * len(spans),
         "base": numbers(starts),
         "x": numbers(ends - starts),
         "customdata": numbers(ends),
         "marker": {"color": MODE_COLOURS[mode], "line": {"width": 0}},
-        "hovertemplate": f"{mode.name} %{{base:.2f}} – %{{customdata:.2f}} s<extra></extra>",
+        "hovertemplate": together(
+            MODE_NAMES[mode], " %{base:.2f} – %{customdata:.2f} s<extra></extra>"
+        ),
     }
 
 
@@ -94,7 +110,7 @@ def _events(log: RunLog) -> Json:
         "mode": "markers",
         "x": numbers([event.t_s for event in log.events]),
         "y": [EVENTS_ROW] * len(log.events),
-        "text": [words(f"{event.level}: {event.text}") for event in log.events],
+        "text": [together(recorded(event.level), ": ", words(event.text)) for event in log.events],
         "marker": {
             "symbol": "diamond-tall",
             "size": 9,

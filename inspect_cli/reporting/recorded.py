@@ -16,7 +16,7 @@ from inspect_cli.reporting.text import Said, Text, number, say
 PLAIN_NUMBER = re.compile(r"-?[0-9]+(?:\.([0-9]+))?")
 NAMES = ("label", "labels", "topic", "other", "kind", "first", "second", "name")
 """Values that are somebody's names even where they look like numbers."""
-SENTENCES = ("why", "status")
+SENTENCES = ("why", "status", "what")
 """Values that are sentences of this list themselves."""
 
 RECORDED: tuple[Said, ...] = (
@@ -88,9 +88,8 @@ RECORDED: tuple[Said, ...] = (
     say("nobody pulled at a rope during the flight"),
     say("the cord of a pull was never taut"),
     say("the cord pulled straight up or down"),
-    say("a pull caused no motion in z at all to compare with"),
-    say("a pull caused no rotation at all to compare with"),
-    say("a pull caused no torque about z_B at all to compare with"),
+    say("a pull caused no {what} at all to compare with"),
+    *(say("motion in z"), say("rotation"), say("torque about z_B")),
 )
 
 
