@@ -88,7 +88,7 @@ def fitted(potential_v: Vector) -> Mixture | str:
     """
     mv = millivolts(potential_v[np.isfinite(potential_v)])
     if len(mv) < MIN_READINGS:
-        return f"{len(mv)} valid readings; two populations ask for at least {MIN_READINGS}"
+        return f"valid readings: {len(mv)}; two populations ask for at least {MIN_READINGS}"
     least_mv = resolution_of(mv)
     steps, inverse = np.unique(np.rint((mv - mv[0]) / least_mv), return_inverse=True)
     values = mv[0] + least_mv * steps

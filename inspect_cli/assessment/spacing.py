@@ -28,6 +28,8 @@ PLACE_DECIMALS: Final = 6
 """Coordinates that agree to the micrometre are the same row or column."""
 GAP_DECIMALS: Final = 9
 """A gap is known to the nanometre; what is finer is rounding of the coordinates."""
+LINE: Final = 1e-6
+"""Points that spread less than this across than along lie on a line."""
 SAME_GAP: Final = 0.01
 """Relative difference of two gaps that count as the same."""
 
@@ -46,9 +48,9 @@ def spacing_of(uv_m: Points, pitch_m: float | None = None) -> Spacing | None:
     A stated pitch makes it a grid. Otherwise it is a grid when at least a third of the points have
     a next one in their row, as many in their column, and half of those gaps are their median,
     which is the spacing. Of a single row or column the other spacing is taken to be the same.
-    The spacing of any other list is the median distance of its points to their second nearest
-    (of two, the nearest): 1 of a square grid or an even line, about 0.75/√λ of points that are
-    strewn with λ per square metre.
+    The spacing of points on any other line is the median gap between them, and that of any other
+    list the median distance of its points to their second nearest: 1 of a square grid, about
+    0.75/√λ of points that are strewn with λ per square metre.
     """
     if pitch_m is not None:
         return Spacing(pitch_m, pitch_m, True)
@@ -61,11 +63,19 @@ def spacing_of(uv_m: Points, pitch_m: float | None = None) -> Spacing | None:
         v_m = u_m
     if u_m is not None and v_m is not None:
         return Spacing(u_m, v_m, True)
+    typical = _typical_gap(uv_m)
+    return Spacing(typical, typical, False)
+
+
+def _typical_gap(uv_m: Points) -> float:
+    """The spacing of n places (n, 2) that are no grid; n ≥ 2."""
+    steps = _steps_along_a_line(uv_m)
+    if steps is not None:
+        return float(np.median(_lengths(uv_m, steps)))
     from scipy.spatial import cKDTree
 
-    distance, _ = cKDTree(uv_m).query(uv_m, min(3, len(uv_m)))
-    typical = float(np.median(distance[:, -1]))
-    return Spacing(typical, typical, False)
+    distance, _ = cKDTree(uv_m).query(uv_m, 3)
+    return float(np.median(distance[:, 2]))
 
 
 def _grid_gap(uv_m: Points, axis: int) -> float | None:
@@ -118,24 +128,23 @@ def _lengths(points: Points, pairs: NDArray[np.intp]) -> Vector:
 
 def _delaunay_edges(points: Points) -> NDArray[np.intp]:
     """Edges (k, 2) of the triangulation; of points on a line, those from each to the next."""
-    from scipy.spatial import Delaunay, QhullError
+    from scipy.spatial import Delaunay
 
+    steps = _steps_along_a_line(points)
+    if steps is not None:
+        return steps
+    triangles = Delaunay(points).simplices
+    sides = np.sort(triangles[:, [0, 1, 1, 2, 2, 0]].reshape(-1, 2), axis=1)
+    keys = np.unique(sides[:, 0].astype(np.int64) * len(points) + sides[:, 1])
+    return np.column_stack(np.divmod(keys, len(points))).astype(np.intp)
+
+
+def _steps_along_a_line(points: Points) -> NDArray[np.intp] | None:
+    """Pairs (n − 1, 2) from each point to the next; None if they do not lie on a line."""
     centred = points - points.mean(axis=0)
-    if len(points) > 2 and np.linalg.matrix_rank(centred, tol=1e-6) == 2:
-        try:
-            triangles = Delaunay(points).simplices
-        except QhullError:
-            pass  # so nearly on a line that no triangle is left
-        else:
-            sides = np.sort(triangles[:, [0, 1, 1, 2, 2, 0]].reshape(-1, 2), axis=1)
-            keys = np.unique(sides[:, 0].astype(np.int64) * len(points) + sides[:, 1])
-            return np.column_stack(np.divmod(keys, len(points))).astype(np.intp)
-    order = np.argsort(centred @ _main_direction(centred), kind="stable")
+    variances, vectors = np.linalg.eigh(centred.T @ centred)
+    if variances[0] > LINE**2 * variances[1]:
+        return None
+    order = np.argsort(centred @ vectors[:, 1], kind="stable")
     steps = np.column_stack([order[:-1], order[1:]]).astype(np.intp)
     return np.sort(steps, axis=1)
-
-
-def _main_direction(centred: Points) -> Vector:
-    """Unit vector (2,) along which the points spread most."""
-    _, vectors = np.linalg.eigh(centred.T @ centred)
-    return np.asarray(vectors[:, -1])
