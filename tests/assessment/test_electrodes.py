@@ -98,7 +98,11 @@ def test_temperatures_beyond_the_standards_range_are_refused(temperature_c: floa
 
 def test_the_basis_says_what_was_done() -> None:
     warm = basis_of("CSE", 32.2)
-    assert (warm.conversion_mv, warm.temperature_correction_mv, warm.temperature_why) == (0, 9.0, "")
+    assert (warm.conversion_mv, warm.temperature_correction_mv, warm.temperature_why) == (
+        0,
+        9.0,
+        "",
+    )
     assert float(to_standard(-0.359, warm)) == pytest.approx(-0.350, abs=1e-12)
     mild = basis_of("sce", 20.0)
     assert (mild.electrode, mild.conversion_mv, mild.temperature_correction_mv) == ("SCE", -75.0, 0)
