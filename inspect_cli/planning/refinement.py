@@ -2,8 +2,8 @@
 
 ASTM C876 asks for a closer spacing where neighbours differ by more than 150 mV. Neighbours are
 points of the lattice that are next to each other along u or v, or on a sphere in neighbouring
-rows; across a diagonal they are farther apart than ``NEIGHBOUR`` pitches. Only what was measured
-is looked at.
+rows; across a diagonal they are farther apart than ``NEIGHBOUR_SPACINGS`` pitches. Only what was
+measured is looked at.
 """
 
 from __future__ import annotations
@@ -12,12 +12,10 @@ from collections.abc import Mapping
 from itertools import combinations, islice
 from typing import NamedTuple
 
+from inspect_cli.assessment.spacing import NEIGHBOUR_SPACINGS
 from inspect_cli.planning.lattice import Place, along_m, between
 from inspect_cli.schema.tasks import Coverage, Refinement
 from inspect_cli.spatial.arrays import Structured
-
-NEIGHBOUR = 1.25
-"""Pitches; the rows of a sphere are up to √1.25 = 1.12 apart, diagonals √2."""
 
 
 class Measured(NamedTuple):
@@ -40,7 +38,7 @@ def places_between(
         difference_mv = abs(at_a.potential_mv - at_b.potential_mv)
         if difference_mv <= rule.difference_mv:
             continue
-        if along_m(prim, at_a.place, at_b.place) <= NEIGHBOUR * coverage.pitch_m:
+        if along_m(prim, at_a.place, at_b.place) <= NEIGHBOUR_SPACINGS * coverage.pitch_m:
             doubtful.append((-difference_mv, a, b))
     found: dict[str, Place] = {}
     for _, a, b in sorted(doubtful):

@@ -85,10 +85,14 @@ class KeepOut(Strict):
     """Along the surface."""
 
 
+CLOSER_SPACING_MV = 150.0
+"""Neighbouring readings that differ by more ask for a closer spacing (ASTM C876)."""
+
+
 class Refinement(Strict):
     """The rule of ASTM C876 for a closer spacing: points between neighbours that differ much."""
 
-    difference_mv: Positive = 150.0
+    difference_mv: Positive = CLOSER_SPACING_MV
     """Neighbouring readings that differ by more get points between them."""
     pitch_m: Positive | None = None
     """At most this far apart; by default half the pitch of the coverage, one point between."""

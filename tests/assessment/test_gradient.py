@@ -1,0 +1,170 @@
+"""The RILEM gradient and the closer spacing of ASTM C876."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from surveyed import grid
+
+from inspect_cli.assessment.gradient import Minima, Steps, minima_of, steps_of
+from inspect_cli.assessment.spacing import Spacing, neighbours, side_by_side, spacing_of
+
+
+def minima(uv_m: object, mv: object) -> Minima:
+    uv, volts, _, pairs = prepared(uv_m, mv)
+    return minima_of(uv, volts, pairs)
+
+
+def steps(uv_m: object, mv: object) -> Steps:
+    uv, volts, spacing, pairs = prepared(uv_m, mv)
+    return steps_of(uv, volts, pairs, spacing)
+
+
+def prepared(uv_m: object, mv: object) -> tuple[np.ndarray, np.ndarray, Spacing | None, np.ndarray]:
+    uv = np.asarray(uv_m, dtype=np.float64).reshape(-1, 2)
+    volts = 1e-3 * np.asarray(mv, dtype=np.float64).reshape(-1)
+    spacing = spacing_of(uv)
+    valid = np.flatnonzero(np.isfinite(volts))
+    pairs = valid[neighbours(uv[valid], spacing)] if spacing else np.zeros((0, 2), np.intp)
+    return uv, volts, spacing, pairs
+
+
+def funnel(depth_mv: float, radius_m: float, background_mv: float = -150.0) -> np.ndarray:
+    """On a grid of 21 × 21 points at 0.2 m, around its middle (point 220)."""
+    distance = np.linalg.norm(grid(21, 21, 0.2) - 2.0, axis=1)
+    return background_mv - depth_mv * np.maximum(0.0, 1.0 - distance / radius_m)
+
+
+@pytest.mark.parametrize(("depth_mv", "active"), [(200.0, True), (100.0, True), (99.0, False)])
+def test_a_funnel_within_a_metre(depth_mv: float, active: bool) -> None:
+    found = minima(grid(21, 21, 0.2), funnel(depth_mv, 1.0))
+    assert found.index.tolist() == [220]
+    assert found.rise_mv[0] == pytest.approx(depth_mv)
+    assert found.is_active.tolist() == [active]
+
+
+def test_a_wide_funnel_is_too_shallow() -> None:
+    """400 mV over 4 m: 100 mV per metre is reached exactly, over 4.5 m it is not."""
+    assert minima(grid(21, 21, 0.2), funnel(400.0, 4.0)).is_active.tolist() == [True]
+    shallow = minima(grid(21, 21, 0.2), funnel(400.0, 4.5))
+    assert shallow.is_active.tolist() == [False]
+    assert np.isnan(shallow.rise_within_m[0])
+
+
+def test_where_the_rise_reaches_100_mv() -> None:
+    found = minima(grid(21, 21, 0.2), funnel(200.0, 1.0))
+    assert found.rise_within_m[0] == pytest.approx(np.hypot(0.4, 0.4))  # 0.5 m lies between nodes
+
+
+def test_positive_minima_and_shallow_hollows_do_not_count() -> None:
+    assert len(minima(grid(21, 21, 0.2), funnel(200.0, 1.0, background_mv=250.0)).index) == 0
+    assert len(minima(grid(21, 21, 0.2), funnel(19.0, 1.0)).index) == 0
+    assert len(minima(grid(21, 21, 0.2), funnel(0.0, 1.0)).index) == 0
+
+
+def test_a_dimple_on_a_slope_is_no_minimum() -> None:
+    """500 mV per metre down along u, and one reading 15 mV below its neighbour further down."""
+    uv = grid(11, 5, 0.1)
+    mv = -100.0 - 500.0 * uv[:, 0]
+    dimple = 2 * 11 + 5
+    mv[dimple] = mv[dimple + 1] - 15.0
+    found = minima(uv, mv)
+    assert dimple not in found.index
+    assert len(found.index) == 1
+
+
+def test_two_equal_readings_side_by_side_are_one_minimum() -> None:
+    found = minima(grid(6, 1, 0.2), [-100, -300, -300, -100, -320, -100])
+    assert found.index.tolist() == [4, 1]
+
+
+def test_a_minimum_at_the_edge_and_beside_a_gap() -> None:
+    mv = np.full(25, -100.0)
+    mv[0], mv[12] = -400.0, -300.0
+    mv[[6, 7, 8, 11, 13, 16, 17, 18]] = np.nan  # all around the middle
+    found = minima(grid(5, 5, 0.3), mv)
+    assert found.index.tolist() == [0]  # what has no neighbour is not below one
+
+
+def test_farther_than_a_metre_is_not_judged() -> None:
+    found = minima(grid(5, 1, 1.2), [-100, -400, -100, -100, -100])
+    assert found.index.tolist() == [1]
+    assert np.isnan(found.rise_mv[0])
+    assert not found.is_active[0]
+
+
+@settings(max_examples=60, deadline=None)
+@given(st.integers(0, 2**32 - 1), st.booleans())
+def test_minima_against_a_flood_by_hand(seed: int, strewn: bool) -> None:
+    """Prominence by its definition: the lowest way out of a hollow, by trying every level."""
+    rng = np.random.default_rng(seed)
+    uv = rng.uniform(0, 2, (36, 2)) if strewn else grid(6, 6, 0.35)
+    mv = 10.0 * rng.integers(-50, 3, 36)
+    mv[rng.random(36) < 0.1] = np.nan
+    uv, volts, _, pairs = prepared(uv, mv)
+    found = minima_of(uv, volts, pairs)
+    links = [set() for _ in range(36)]
+    for a, b in pairs.tolist():
+        links[a].add(b)
+        links[b].add(a)
+    expected = set()
+    for i in np.flatnonzero(mv < 0):
+        if prominence(i, mv, links) >= 20.0:
+            expected.add(int(i))
+    assert set(found.index.tolist()) == expected
+    for i, rise in zip(found.index, found.rise_mv, strict=True):
+        near = np.linalg.norm(uv - uv[i], axis=1) <= 1.0 + 1e-9
+        near[i] = False
+        others = mv[near & np.isfinite(mv)]
+        assert np.isnan(rise) if not len(others) else rise == pytest.approx(others.max() - mv[i])
+
+
+def prominence(i: int, mv: np.ndarray, links: list[set[int]]) -> float:
+    """Least rise on the way from i to a reading that is lower, or as low and came first."""
+    for level in np.unique(mv[np.isfinite(mv)]):
+        if level < mv[i]:
+            continue
+        reached, front = {i}, [i]
+        while front:
+            for j in links[front.pop()]:
+                if j not in reached and mv[j] <= level:
+                    reached.add(j)
+                    front.append(j)
+        if any(mv[j] < mv[i] or (mv[j] == mv[i] and j < i) for j in reached):
+            return float(level - mv[i])
+    return float(max(mv[j] for j in reached) - mv[i])
+
+
+def test_neighbours_that_differ_by_more_than_150_mv() -> None:
+    uv = grid(4, 2, 0.25, 0.5)
+    mv = [[-100, -250, -250, -500], [-100, -251, -250, -250]]
+    found = steps(uv, mv)
+    assert found.pairs.tolist() == [[2, 3], [3, 7], [4, 5]]
+    np.testing.assert_allclose(found.difference_mv, [250, 250, 151])
+    np.testing.assert_allclose(found.midpoint_m, [[0.625, 0], [0.75, 0.25], [0.125, 0.5]])
+
+
+def test_neither_diagonals_nor_gaps_are_neighbours() -> None:
+    mv = np.full((3, 3), np.nan)
+    mv[0, 0], mv[1, 1], mv[0, 2] = -100.0, -600.0, -600.0
+    assert len(steps(grid(3, 3, 0.5), mv).pairs) == 0
+
+
+@pytest.mark.parametrize("n", [0, 1, 2, 3, 5])
+def test_few_points_on_any_line(n: int) -> None:
+    uv = np.outer(np.arange(n), [0.3, 0.4])
+    mv = -100.0 - 200.0 * (np.arange(n) % 2)
+    found = steps(uv, mv)
+    assert found.pairs.tolist() == [[k, k + 1] for k in range(n - 1)]
+    assert minima(uv, mv).index.tolist() == [k for k in range(n) if k % 2]
+
+
+def test_neighbours_of_a_grid_are_counted() -> None:
+    uv = grid(7, 5, 0.1016, 0.3)
+    spacing = spacing_of(uv)
+    assert spacing == Spacing(0.1016, 0.3, True)
+    pairs = neighbours(uv, spacing)
+    assert len(pairs) == 6 * 5 + 7 * 4 + 2 * 6 * 4
+    assert len(side_by_side(pairs, uv, spacing)) == 6 * 5 + 7 * 4
