@@ -1,0 +1,120 @@
+"""Where a survey has measured: the region between neighbouring readings, and nothing beyond it.
+
+The readings' Delaunay triangles are kept where they join neighbours and dropped where they span a
+gap: an L stays an L, a hole stays a hole, whatever the convex hull says. Lengths are measured in
+pitches, along each axis in its own, so that 1 m by 1 cm is as regular a grid as 1 m by 1 m.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+LARGEST_GAP = 3.5
+"""Longest edge of a triangle that is drawn, in local spacings: a gap of three missing readings in
+line (four pitches) stays empty, one or two missing readings are interpolated."""
+
+_SECOND = 2
+"""A place's spacing is the distance to its second neighbour: one pitch even in a grid's corner."""
+_COMMON = 4
+"""A spacing is the median with those of the four neighbours: a stray reading borrows theirs."""
+_WINDOWS, _IN_WINDOW = 9, 400
+"""Of a large survey the pitch is found in windows: nine with 400 readings each."""
+_EDGE_PITCHES = 1e-6
+"""A node this near to a drawn triangle counts as inside: borders run along rows of readings."""
+
+Floats = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class MeasuredHull:
+    """The triangles between neighbouring readings."""
+
+    triangulation: Any
+    """scipy.spatial.Delaunay of the readings, coordinates in pitches."""
+    drawn: NDArray[np.bool_]
+    """(triangles,) whether a triangle joins neighbours."""
+    pitch_m: Floats
+    """(2,) typical distance of neighbours along u and v, m."""
+
+    def contains(self, uv_m: Floats) -> NDArray[np.bool_]:
+        """Whether each of ``uv_m`` (n, 2), m, lies in a drawn triangle or on its border."""
+        places = uv_m / self.pitch_m
+        inside = self._contains(places)
+        for step in ((1, 1), (1, -1), (-1, 1), (-1, -1)):
+            rest = np.flatnonzero(~inside)
+            inside[rest] = self._contains(places[rest] + _EDGE_PITCHES * np.array(step))
+        return inside
+
+    def _contains(self, places: Floats) -> NDArray[np.bool_]:
+        triangle = self.triangulation.find_simplex(places, tol=1e-9)
+        # Outside is −1, which would index the last triangle.
+        return np.asarray((triangle >= 0) & self.drawn[triangle])
+
+
+def measured_hull(uv_m: Floats, pitch_m: Floats) -> MeasuredHull:
+    """The region between neighbouring readings at ``uv_m`` (n, 2), distinct and not in line.
+
+    A triangle is drawn if its longest edge is at most ``LARGEST_GAP`` times the spacing about its
+    corners. The spacing is local, so a fine grid within a coarse one leaves the coarse one drawn.
+    """
+    from scipy.spatial import Delaunay, cKDTree
+
+    places = uv_m / pitch_m
+    triangulation = Delaunay(places)
+    neighbours = min(_COMMON, len(places) - 1)
+    distance, index = cKDTree(places).query(places, k=neighbours + 1)
+    own = distance[:, _SECOND]
+    spacing = np.median(own[index], axis=1)
+    corners = triangulation.simplices
+    edges = places[corners] - places[np.roll(corners, 1, axis=1)]
+    longest = np.sqrt((edges**2).sum(axis=2).max(axis=1))
+    drawn = longest <= LARGEST_GAP * spacing[corners].max(axis=1)
+    return MeasuredHull(triangulation, drawn, pitch_m)
+
+
+def typical_pitch(uv_m: Floats) -> Floats:
+    """(2,) distance of neighbouring readings along u and along v, m; exact for a regular grid.
+
+    A rectangular cell is a pair of Delaunay triangles however the axes are scaled; a third of its
+    edges run along u, a third along v, a third are diagonals. Two thirds of them therefore span
+    the pitch of an axis, and the upper third begins in the middle of those. Scattered readings
+    have one pitch, about as long along u as along v.
+
+    Args:
+        uv_m: (n, 2), distinct places that are not all in one line, m.
+    """
+    scaled = (uv_m - uv_m.min(axis=0)) / np.ptp(uv_m, axis=0)
+    steps = [_steps(uv_m[window]) for window in _windows(scaled)]
+    pitch = np.quantile(np.concatenate(steps), 2.0 / 3.0, axis=0)
+    # Readings of which most share a column have no pitch across it; the extent stands in for it.
+    return np.where(pitch > 1e-6 * np.ptp(uv_m, axis=0), pitch, np.ptp(uv_m, axis=0))
+
+
+def _windows(scaled: Floats) -> list[NDArray[np.intp]]:
+    """Indices of the readings among which the pitch is found; ``scaled`` into a unit square."""
+    from scipy.spatial import cKDTree
+
+    count = len(scaled)
+    if count <= _WINDOWS * _IN_WINDOW:
+        return [np.arange(count)]
+    by_column = np.lexsort((scaled[:, 1], scaled[:, 0]))
+    middles = by_column[np.linspace(0, count - 1, _WINDOWS + 2).astype(int)[1:-1]]
+    _, index = cKDTree(scaled).query(scaled[middles], k=_IN_WINDOW)
+    wide = [window for window in index if np.ptp(scaled[window], axis=0).min() > 1e-6]
+    # Windows within one row each: a few rows with very many readings. Thinned they still have
+    # more readings along the rows than a map has nodes.
+    return wide or [by_column[:: count // (_WINDOWS * _IN_WINDOW)]]
+
+
+def _steps(uv_m: Floats) -> Floats:
+    """(edges, 2) |Δu| and |Δv| along the Delaunay edges of ``uv_m``, m, each edge once."""
+    from scipy.spatial import Delaunay
+
+    corners = Delaunay(uv_m).simplices
+    pairs = np.sort(np.concatenate([corners[:, [0, 1]], corners[:, [1, 2]], corners[:, [2, 0]]]))
+    start, end = np.unique(pairs, axis=0).T
+    return np.asarray(np.abs(uv_m[end] - uv_m[start]))
