@@ -38,14 +38,12 @@ def contour_levels(lowest_v: float, highest_v: float) -> tuple[float, ...]:
 
 
 def contour_lines(kriged: KrigedMap) -> tuple[ContourLine, ...]:
-    """The map's lines of equal potential at ``contour_levels``, ascending; none outside its hull."""
+    """The lines of equal potential at ``contour_levels``, ascending; none outside the hull."""
     import contourpy
 
     potential = np.ma.masked_invalid(kriged.potential_v)
     generator = contourpy.contour_generator(kriged.u_m, kriged.v_m, potential)
     levels = contour_levels(float(potential.min()), float(potential.max()))
     return tuple(
-        ContourLine(level, np.asarray(line))
-        for level in levels
-        for line in generator.lines(level)
+        ContourLine(level, np.asarray(line)) for level in levels for line in generator.lines(level)
     )

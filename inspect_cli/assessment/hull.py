@@ -19,8 +19,6 @@ line (four pitches) stays empty, one or two missing readings are interpolated.""
 
 _SECOND = 2
 """A place's spacing is the distance to its second neighbour: one pitch even in a grid's corner."""
-_COMMON = 4
-"""A spacing is the median with those of the four neighbours: a stray reading borrows theirs."""
 _WINDOWS, _IN_WINDOW = 9, 400
 """Of a large survey the pitch is found in windows: nine with 400 readings each."""
 _EDGE_PITCHES = 1e-6
@@ -35,45 +33,84 @@ class MeasuredHull:
 
     triangulation: Any
     """scipy.spatial.Delaunay of the readings, coordinates in pitches."""
+    borders: Floats
+    """(edges, 3) outward normals and offsets of all readings' convex hull, in pitches."""
     drawn: NDArray[np.bool_]
     """(triangles,) whether a triangle joins neighbours."""
     pitch_m: Floats
     """(2,) typical distance of neighbours along u and v, m."""
 
-    def contains(self, uv_m: Floats) -> NDArray[np.bool_]:
-        """Whether each of ``uv_m`` (n, 2), m, lies in a drawn triangle or on its border."""
+    def contains(self, uv_m: Floats, crowded: NDArray[np.bool_]) -> NDArray[np.bool_]:
+        """Whether each of ``uv_m`` (n, 2), m, is in the measured region or on its border.
+
+        Args:
+            uv_m: nodes of a map.
+            crowded: (n,) whether several readings are nearest to a node. Such a node is measured
+                though the mean place of its readings may lie further inside than itself.
+        """
         places = uv_m / self.pitch_m
-        inside = self._contains(places)
-        for step in ((1, 1), (1, -1), (-1, 1), (-1, -1)):
+        inside = crowded & (self._beyond(places) <= _EDGE_PITCHES)
+        for step in ((0, 0), (1, 1), (1, -1), (-1, 1), (-1, -1)):
             rest = np.flatnonzero(~inside)
             inside[rest] = self._contains(places[rest] + _EDGE_PITCHES * np.array(step))
         return inside
 
+    def _beyond(self, places: Floats) -> Floats:
+        """(n,) distance outside the convex hull, in pitches; negative within."""
+        beyond = np.full(len(places), -np.inf)
+        for normal_u, normal_v, offset in self.borders:
+            edge = places[:, 0] * normal_u + places[:, 1] * normal_v + offset
+            np.maximum(beyond, edge, out=beyond)
+        return beyond
+
     def _contains(self, places: Floats) -> NDArray[np.bool_]:
-        triangle = self.triangulation.find_simplex(places, tol=1e-9)
-        # Outside is −1, which would index the last triangle.
-        return np.asarray((triangle >= 0) & self.drawn[triangle])
+        # Of a place outside the convex hull every triangle would be tried.
+        within = np.flatnonzero(self._beyond(places) <= _EDGE_PITCHES)
+        triangle = self.triangulation.find_simplex(places[within], tol=1e-9)
+        inside = np.zeros(len(places), dtype=bool)
+        inside[within] = (triangle >= 0) & self.drawn[triangle]
+        return inside
 
 
-def measured_hull(uv_m: Floats, pitch_m: Floats) -> MeasuredHull:
-    """The region between neighbouring readings at ``uv_m`` (n, 2), distinct and not in line.
+def measured_hull(uv_m: Floats, readings_m: Floats, pitch_m: Floats) -> MeasuredHull:
+    """The region between neighbouring readings.
 
     A triangle is drawn if its longest edge is at most ``LARGEST_GAP`` times the spacing about its
     corners. The spacing is local, so a fine grid within a coarse one leaves the coarse one drawn.
+
+    Args:
+        uv_m: (n, 2) distinct places that are not in one line, m.
+        readings_m: (m, 2) places of the readings of which those are the means, m.
+        pitch_m: (2,) typical distance of neighbours along u and v, m.
     """
-    from scipy.spatial import Delaunay, cKDTree
+    from scipy.spatial import ConvexHull, Delaunay, cKDTree
 
     places = uv_m / pitch_m
     triangulation = Delaunay(places)
-    neighbours = min(_COMMON, len(places) - 1)
-    distance, index = cKDTree(places).query(places, k=neighbours + 1)
-    own = distance[:, _SECOND]
-    spacing = np.median(own[index], axis=1)
+    borders = np.unique(ConvexHull(readings_m / pitch_m).equations, axis=0)
+    second_nearest = cKDTree(places).query(places, k=[_SECOND + 1])[0][:, 0]
+    spacing = _shared(second_nearest, *triangulation.vertex_neighbor_vertices)
     corners = triangulation.simplices
     edges = places[corners] - places[np.roll(corners, 1, axis=1)]
     longest = np.sqrt((edges**2).sum(axis=2).max(axis=1))
     drawn = longest <= LARGEST_GAP * spacing[corners].max(axis=1)
-    return MeasuredHull(triangulation, drawn, pitch_m)
+    return MeasuredHull(triangulation, borders, drawn, pitch_m)
+
+
+def _shared(own: Floats, first: NDArray[np.intp], neighbours: NDArray[np.intp]) -> Floats:
+    """Spacings (n,) that two neighbours share: the own one, or theirs if they stand closer.
+
+    A reading in a coarse grid has coarse neighbours even where it borders on a fine one; one
+    stray reading or two have neighbours in the survey alone, and take their spacing.
+    """
+    count = np.diff(first)
+    of = np.repeat(np.arange(len(own)), count)
+    theirs = own[neighbours][np.lexsort((own[neighbours], of))]
+    known = count >= _SECOND
+    second_largest = theirs[first[1:][known] - _SECOND]
+    spacing = own.copy()
+    spacing[known] = np.minimum(own[known], second_largest)
+    return spacing
 
 
 def typical_pitch(uv_m: Floats) -> Floats:

@@ -14,7 +14,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from inspect_cli.assessment.hull import LARGEST_GAP, measured_hull, typical_pitch
-from inspect_cli.assessment.supports import Supports, distinct_places, supports
+from inspect_cli.assessment.supports import (
+    Supports,
+    distinct_places,
+    readings_per_cell,
+    supports,
+)
 from inspect_cli.assessment.variogram import Variogram, fit, semivariances
 
 Floats = NDArray[np.float64]
@@ -81,21 +86,23 @@ def krige(uv_m: Floats, potential_v: Floats, measurement_sd_v: Floats | None) ->
     Source: Cressie, Statistics for Spatial Data (1993), section 3.2.
     """
     uv, potential, variance = _valid(uv_m, potential_v, measurement_sd_v)
-    why = _why_not(uv)
+    origin = uv.mean(axis=0) if len(uv) else np.zeros(2)
+    uv = uv - origin
+    places = distinct_places(uv)
+    why = _why_not(places, len(uv))
     if why is not None:
         return NoMap(why)
-    origin = uv.mean(axis=0)
-    uv = uv - origin
-    pitch = typical_pitch(distinct_places(uv))
+    pitch = typical_pitch(places)
     low, high = uv.min(axis=0), uv.max(axis=0)
     u, v = (_nodes(low[axis], high[axis], pitch[axis]) for axis in (0, 1))
     node_m = np.array([u[1] - u[0], v[1] - v[0]])
     held = supports(uv, potential, variance, node_m)
     if len(held.potential_v) < FEWEST_PLACES:
         return NoMap(_too_few(len(held.potential_v)))
-    hull = measured_hull(held.uv_m, np.maximum(pitch, node_m))
-    inside = hull.contains(np.stack(np.meshgrid(u, v), axis=-1).reshape(-1, 2))
-    inside = inside.reshape(len(v), len(u))
+    hull = measured_hull(held.uv_m, uv, np.maximum(pitch, node_m))
+    crowded = readings_per_cell(uv, node_m, (len(v), len(u))) > 1
+    nodes = np.stack(np.meshgrid(u, v), axis=-1).reshape(-1, 2)
+    inside = hull.contains(nodes, crowded.ravel()).reshape(crowded.shape)
     if not inside.any():
         return NoMap("no three readings stand near enough to each other to draw between them")
     variogram = _variogram(held)
@@ -122,7 +129,7 @@ def kriged_at(held: Supports, variogram: Variogram, at_m: Floats) -> tuple[Float
     Returns:
         potentials (n,), V, and variances (n,) of a further reading there, V².
     """
-    if np.ptp(held.potential_v) <= _FLAT_V:
+    if variogram.scale_v2 == 0.0 and np.ptp(held.potential_v) <= _FLAT_V:
         return _flat(held, variogram, len(at_m))
     from importlib.util import find_spec
 
@@ -155,10 +162,10 @@ def _for_pykrige(variogram: Variogram) -> dict[str, float]:
 
 
 def _flat(held: Supports, variogram: Variogram, count: int) -> tuple[Floats, Floats]:
-    """Readings that are all equal: their mean, and the nugget for a variance."""
+    """Readings that are all equal, with a nugget at most: PyKrige's system may be singular."""
     neighbours = min(NEIGHBOURS, len(held.potential_v))
     variance = variogram.nugget_v2 * (1.0 + 1.0 / neighbours)
-    return np.full(count, held.potential_v.mean()), np.full(count, variance)
+    return np.full(count, held.potential_v[0]), np.full(count, variance)
 
 
 def _valid(uv_m: Floats, potential_v: Floats, sd_v: Floats | None) -> tuple[Floats, Floats, Floats]:
@@ -168,18 +175,16 @@ def _valid(uv_m: Floats, potential_v: Floats, sd_v: Floats | None) -> tuple[Floa
     return uv_m[valid], potential_v[valid], sd[valid] ** 2
 
 
-def _why_not(uv: Floats) -> str | None:
-    """Why these places span no map; None if they do."""
-    count = len(uv)
-    if count == 0:
+def _why_not(places: Floats, readings: int) -> str | None:
+    """Why these places of valid readings span no map; None if they do."""
+    if readings == 0:
         return "there are no valid readings"
-    places = len(distinct_places(uv - uv.mean(axis=0)))
-    if places == 1 and count > 1:
-        return f"all {count} valid readings are at one place"
-    if places < FEWEST_PLACES:
-        return _too_few(places)
-    along, across = np.linalg.svd(uv - uv.mean(axis=0), compute_uv=False)
-    if across < _LINE * along:
+    if len(places) == 1 and readings > 1:
+        return f"all {readings} valid readings are at one place"
+    if len(places) < FEWEST_PLACES:
+        return _too_few(len(places))
+    across, along = np.linalg.eigvalsh(np.cov(places.T))
+    if across < _LINE**2 * along:
         return "the valid readings are in one line: there is no area between them"
     return None
 
@@ -195,15 +200,9 @@ def _nodes(low: float, high: float, pitch: float) -> Floats:
 
 
 def _variogram(held: Supports) -> Variogram:
-    """Fitted up to the distance that a neighbourhood reaches."""
-    from scipy.spatial import cKDTree
-
-    neighbours = min(NEIGHBOURS, len(held.potential_v) - 1)
-    distance, _ = cKDTree(held.uv_m).query(held.uv_m, k=neighbours + 1)
-    farthest = float(np.median(distance[:, -1])) * (1.0 + 1e-9)
+    found = semivariances(held.uv_m, held.potential_v, NEIGHBOURS)
     if np.ptp(held.potential_v) <= _FLAT_V:
-        return Variogram("spherical", held.measurement_v2, 0.0, farthest)
-    found = semivariances(held.uv_m, held.potential_v, farthest)
+        return Variogram("spherical", held.measurement_v2, 0.0, float(found.lag_m[-1]))
     least = _LEAST_NUGGET * float(np.var(held.potential_v))
     return fit(found, max(least, held.measurement_v2))
 
@@ -235,7 +234,9 @@ def _tiles(
     tile = (rows // _TILE) * _MOST_NODES + columns // _TILE
     order = np.argsort(tile, kind="stable")
     for of_tile in np.split(order, np.flatnonzero(np.diff(tile[order])) + 1):
-        yield rows[of_tile], columns[of_tile], held.taken(np.unique(nearest[of_tile]))
+        near = np.zeros(len(held.potential_v), dtype=bool)
+        near[nearest[of_tile]] = True
+        yield rows[of_tile], columns[of_tile], held.taken(np.flatnonzero(near))
 
 
 def _how(readings: int, held: Supports, variogram: Variogram) -> str:

@@ -32,7 +32,9 @@ class Supports:
 
 def distinct_places(uv_m: Floats) -> Floats:
     """(m, 2) the places among ``uv_m`` (n, 2) that are 0.1 mm apart, sorted by u, then v."""
-    return np.unique(np.round(uv_m / _SAME_PLACE_M), axis=0) * _SAME_PLACE_M
+    steps = np.round(uv_m / _SAME_PLACE_M)
+    places = np.unique(steps[:, 0] + 1j * steps[:, 1]) * _SAME_PLACE_M
+    return np.column_stack([places.real, places.imag])
 
 
 def supports(uv_m: Floats, potential_v: Floats, variance_v2: Floats, cell_m: Floats) -> Supports:
@@ -52,13 +54,24 @@ def supports(uv_m: Floats, potential_v: Floats, variance_v2: Floats, cell_m: Flo
     """
     known = np.isfinite(variance_v2)
     variance = np.where(known, variance_v2, variance_v2[known].mean() if known.any() else 0.0)
-    column, row = np.round((uv_m - uv_m.min(axis=0)) / cell_m).astype(np.int64).T
+    column, row = _cells(uv_m, cell_m)
     group = np.unique(row * (int(column.max()) + 1) + column, return_inverse=True)[1]
     means, _ = _means(np.column_stack([uv_m, potential_v]), group)
     group = _joined(means[:, :2] / cell_m)[group]
     means, count = _means(np.column_stack([uv_m, potential_v]), group)
     of_mean = np.bincount(group, variance) / count**2
     return Supports(means[:, :2], means[:, 2], float(of_mean.mean()))
+
+
+def readings_per_cell(uv_m: Floats, cell_m: Floats, shape: tuple[int, int]) -> NDArray[np.intp]:
+    """(rows, columns) how many of ``uv_m`` are in each of the cells that ``supports`` takes."""
+    column, row = _cells(uv_m, cell_m)
+    return np.bincount(row * shape[1] + column, minlength=shape[0] * shape[1]).reshape(shape)
+
+
+def _cells(uv_m: Floats, cell_m: Floats) -> NDArray[np.int64]:
+    """(2, n) column and row of each reading's cell."""
+    return np.asarray(np.round((uv_m - uv_m.min(axis=0)) / cell_m).astype(np.int64).T)
 
 
 def _joined(places: Floats) -> NDArray[np.intp]:

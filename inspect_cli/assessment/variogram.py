@@ -60,12 +60,18 @@ class Semivariances:
     """(bins,) number of pairs."""
 
 
-def semivariances(uv_m: Floats, potential_v: Floats, farthest_m: float) -> Semivariances:
-    """Experimental semivariances up to ``farthest_m``, in bins of equal width.
+def semivariances(uv_m: Floats, potential_v: Floats, neighbours: int) -> Semivariances:
+    """Experimental semivariances of near readings, in bins of equal width.
 
-    Every reading is paired with its 64 nearest, a pair of neighbours thus counts twice; of more
-    than 2000 readings 2000 are, drawn with a fixed seed. Kriging from the nearest readings asks
-    for no other lags, and 100 000 readings have 5·10⁹ pairs.
+    They go as far as a neighbourhood of so many ``neighbours`` reaches in the median. Every
+    reading is paired with its 64 nearest, a pair of neighbours thus counts twice; of more than
+    2000 readings 2000 are, drawn with a fixed seed. Kriging from the nearest readings asks for
+    no other lags, and 100 000 readings have 5·10⁹ pairs.
+
+    Args:
+        uv_m: (n, 2) distinct places, m, more than one.
+        potential_v: (n,) V.
+        neighbours: at most 64; fewer if there are fewer readings.
 
     Source: Matheron's estimator; Cressie, Statistics for Spatial Data (1993), eq. 2.4.2.
     """
@@ -76,10 +82,11 @@ def semivariances(uv_m: Floats, potential_v: Floats, farthest_m: float) -> Semiv
     if count > _ANCHORS:
         anchors = np.sort(np.random.default_rng(_SEED).choice(count, _ANCHORS, replace=False))
     distance, index = cKDTree(uv_m).query(uv_m[anchors], k=min(count, _PARTNERS + 1))
+    farthest = float(np.median(distance[:, min(neighbours, count - 1)])) * (1.0 + 1e-9)
     half_square = 0.5 * (potential_v[index] - potential_v[anchors][:, None]) ** 2
     # The nearest of all is the reading itself.
     lag, half_square = distance[:, 1:].ravel(), half_square[:, 1:].ravel()
-    bins = np.minimum((lag / farthest_m * _BINS).astype(int), _BINS)
+    bins = np.minimum(lag / farthest * _BINS, _BINS).astype(int)
     pairs = np.bincount(bins, minlength=_BINS + 1)[:_BINS].astype(float)
     held = pairs > 0
     of_bin = pairs[held]
