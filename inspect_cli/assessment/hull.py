@@ -21,8 +21,9 @@ _SECOND = 2
 """A place's spacing is the distance to its second neighbour: one pitch even in a grid's corner."""
 _WINDOWS, _IN_WINDOW = 9, 400
 """Of a large survey the pitch is found in windows: nine with 400 readings each."""
-_EDGE_PITCHES = 1e-6
-"""A node this near to a drawn triangle counts as inside: borders run along rows of readings."""
+_ON_BORDER = 1e-6
+"""A node this near to a drawn triangle, in pitches or barycentric coordinates, counts as inside:
+borders run along rows of readings, and so do rows of nodes."""
 
 Floats = NDArray[np.float64]
 
@@ -33,8 +34,10 @@ class MeasuredHull:
 
     triangulation: Any
     """scipy.spatial.Delaunay of the readings, coordinates in pitches."""
-    borders: Floats
-    """(edges, 3) outward normals and offsets of all readings' convex hull, in pitches."""
+    edges: Floats
+    """(k, 3) outward normals and offsets of the triangulation's convex hull, in pitches."""
+    readings_edges: Floats
+    """(m, 3) the same of all readings, before any were averaged."""
     drawn: NDArray[np.bool_]
     """(triangles,) whether a triangle joins neighbours."""
     pitch_m: Floats
@@ -49,27 +52,38 @@ class MeasuredHull:
                 though the mean place of its readings may lie further inside than itself.
         """
         places = uv_m / self.pitch_m
-        inside = crowded & (self._beyond(places) <= _EDGE_PITCHES)
-        for step in ((0, 0), (1, 1), (1, -1), (-1, 1), (-1, -1)):
-            rest = np.flatnonzero(~inside)
-            inside[rest] = self._contains(places[rest] + _EDGE_PITCHES * np.array(step))
+        inside = crowded & _within(places, self.readings_edges)
+        # Of a place outside the triangulation every triangle would be tried.
+        rest = np.flatnonzero(~inside & _within(places, self.edges))
+        triangle = self.triangulation.find_simplex(places[rest], tol=1e-9)
+        rest, triangle = rest[triangle >= 0], triangle[triangle >= 0]
+        inside[rest] = self.drawn[triangle]
+        aside = ~self.drawn[triangle]
+        inside[rest[aside]] = self._on_border(places[rest[aside]], triangle[aside])
         return inside
 
-    def _beyond(self, places: Floats) -> Floats:
-        """(n,) distance outside the convex hull, in pitches; negative within."""
-        beyond = np.full(len(places), -np.inf)
-        for normal_u, normal_v, offset in self.borders:
-            edge = places[:, 0] * normal_u + places[:, 1] * normal_v + offset
-            np.maximum(beyond, edge, out=beyond)
-        return beyond
+    def _on_border(self, places: Floats, triangle: NDArray[np.intp]) -> NDArray[np.bool_]:
+        """Whether places in undrawn triangles lie on an edge or corner of a drawn one."""
+        transform = self.triangulation.transform[triangle]
+        first_two = np.einsum("nij,nj->ni", transform[:, :2], places - transform[:, 2])
+        share = np.column_stack([first_two, 1.0 - first_two.sum(axis=1)])
+        beside = self.triangulation.neighbors[triangle]
+        beside_drawn = (beside >= 0) & self.drawn[beside]
+        corners = self.triangulation.simplices
+        corner_drawn = np.zeros(len(self.triangulation.points), dtype=bool)
+        corner_drawn[corners[self.drawn]] = True
+        on_edge = (share <= _ON_BORDER) & beside_drawn
+        on_corner = (share >= 1.0 - _ON_BORDER) & corner_drawn[corners[triangle]]
+        return np.asarray((on_edge | on_corner).any(axis=1))
 
-    def _contains(self, places: Floats) -> NDArray[np.bool_]:
-        # Of a place outside the convex hull every triangle would be tried.
-        within = np.flatnonzero(self._beyond(places) <= _EDGE_PITCHES)
-        triangle = self.triangulation.find_simplex(places[within], tol=1e-9)
-        inside = np.zeros(len(places), dtype=bool)
-        inside[within] = (triangle >= 0) & self.drawn[triangle]
-        return inside
+
+def _within(places: Floats, edges: Floats) -> NDArray[np.bool_]:
+    """Whether each of ``places`` (n, 2) is in the convex hull with these ``edges`` (k, 3)."""
+    beyond = np.full(len(places), -np.inf)
+    for normal_u, normal_v, offset in edges:
+        edge = places[:, 0] * normal_u + places[:, 1] * normal_v + offset
+        np.maximum(beyond, edge, out=beyond)
+    return np.asarray(beyond <= _ON_BORDER)
 
 
 def measured_hull(uv_m: Floats, readings_m: Floats, pitch_m: Floats) -> MeasuredHull:
@@ -87,14 +101,15 @@ def measured_hull(uv_m: Floats, readings_m: Floats, pitch_m: Floats) -> Measured
 
     places = uv_m / pitch_m
     triangulation = Delaunay(places)
-    borders = np.unique(ConvexHull(readings_m / pitch_m).equations, axis=0)
+    edges_of = (ConvexHull(points).equations for points in (places, readings_m / pitch_m))
+    edges, readings_edges = (np.unique(equations, axis=0) for equations in edges_of)
     second_nearest = cKDTree(places).query(places, k=[_SECOND + 1])[0][:, 0]
     spacing = _shared(second_nearest, *triangulation.vertex_neighbor_vertices)
     corners = triangulation.simplices
-    edges = places[corners] - places[np.roll(corners, 1, axis=1)]
-    longest = np.sqrt((edges**2).sum(axis=2).max(axis=1))
+    sides = places[corners] - places[np.roll(corners, 1, axis=1)]
+    longest = np.sqrt((sides**2).sum(axis=2).max(axis=1))
     drawn = longest <= LARGEST_GAP * spacing[corners].max(axis=1)
-    return MeasuredHull(triangulation, borders, drawn, pitch_m)
+    return MeasuredHull(triangulation, edges, readings_edges, drawn, pitch_m)
 
 
 def _shared(own: Floats, first: NDArray[np.intp], neighbours: NDArray[np.intp]) -> Floats:
