@@ -1,0 +1,66 @@
+"""Fitted variograms against those that the semivariances were made from."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from inspect_cli.assessment.variogram import Semivariances, Variogram, fit, semivariances
+
+
+def made(of: Variogram, pairs: float = 500.0) -> Semivariances:
+    lag = np.linspace(0.1, 1.5, 15)
+    return Semivariances(lag, of.semivariance(lag), np.full(15, pairs))
+
+
+@pytest.mark.parametrize(
+    "of",
+    [
+        Variogram("spherical", 1e-4, 4e-3, 0.9),
+        Variogram("exponential", 1e-4, 4e-3, 1.2),
+        Variogram("power", 1e-4, 4e-3, 1.5, 1.55),
+    ],
+)
+def test_the_model_is_found_again(of: Variogram) -> None:
+    found = fit(made(of), 0.0)
+    assert found.model == of.model
+    # The lengths that are tried are 15 % apart.
+    assert found.length_m == pytest.approx(of.length_m, rel=0.12)
+    assert found.exponent == pytest.approx(of.exponent)
+    lag = np.linspace(0.1, 1.5, 50)
+    np.testing.assert_allclose(found.semivariance(lag), of.semivariance(lag), rtol=0.05)
+
+
+def test_the_nugget_is_at_least_the_measurement() -> None:
+    found = fit(made(Variogram("spherical", 1e-4, 4e-3, 0.9)), 5e-4)
+    assert found.nugget_v2 == 5e-4
+
+
+def test_few_pairs_cannot_tell_a_nugget() -> None:
+    of = Variogram("spherical", 1e-3, 1e-3, 0.9)
+    assert fit(made(of), 0.0).nugget_v2 == pytest.approx(1e-3, rel=0.1)
+    assert fit(made(of, pairs=20.0), 1e-6).nugget_v2 == 1e-6
+
+
+def test_unlike_neighbours_are_all_nugget() -> None:
+    lag = np.linspace(0.1, 1.5, 15)
+    found = fit(Semivariances(lag, np.full(15, 2e-3), np.full(15, 500.0)), 0.0)
+    assert found.nugget_v2 == pytest.approx(2e-3)
+    assert found.semivariance(lag) == pytest.approx(2e-3)
+
+
+def test_semivariances_of_a_line_are_half_the_squared_difference() -> None:
+    """E = 0.1 u on a row: γ(h) = ½ (0.1 h)²; each pair from both its ends."""
+    u = 0.2 * np.arange(12)
+    found = semivariances(np.column_stack([u, 0.0 * u]), 0.1 * u, 32)
+    np.testing.assert_allclose(found.semivariance_v2, 0.5 * (0.1 * found.lag_m) ** 2, rtol=0.02)
+    assert found.pairs[0] == 22
+
+
+def test_white_noise_has_its_variance_at_all_distances() -> None:
+    rng = np.random.default_rng(1)
+    uv = rng.random((5000, 2))
+    found = semivariances(uv, 0.02 * rng.normal(size=5000), 32)
+    assert found.pairs.sum() > 50_000
+    average = np.average(found.semivariance_v2, weights=found.pairs)
+    assert average == pytest.approx(4e-4, rel=0.05)
