@@ -1,4 +1,4 @@
-"""``report.html`` and ``readings.csv`` of a survey that took several sorties."""
+"""``report.html`` of a survey that took several sorties."""
 
 from __future__ import annotations
 
@@ -13,9 +13,7 @@ from inspect_cli.reporting.markup import Markup, element, joined
 from inspect_cli.reporting.page import Section, page
 from inspect_cli.reporting.points import ReadPoint, read_points
 from inspect_cli.reporting.provenance import provenance
-from inspect_cli.reporting.readings_csv import readings_csv
 from inspect_cli.reporting.report import (
-    READINGS_NAME,
     REPORT_NAME,
     header,
     summary,
@@ -32,7 +30,7 @@ from inspect_cli.schema.result import Result
 def write_survey_report(
     log: RunLog, result: Result, flown: Sequence[Result], survey: CoveragePlan, folder: Path
 ) -> Path:
-    """Write ``report.html`` and ``readings.csv`` into ``folder``; return the page's path.
+    """Write ``report.html`` into ``folder``; return the page's path.
 
     Args:
         log: of the first sortie; mission, platform and versions are those of all.
@@ -42,7 +40,6 @@ def write_survey_report(
         folder: holds the sorties' own reports in folders of their own.
     """
     plan = survey.joined()
-    write_whole(folder / READINGS_NAME, readings_csv(result, plan))
     path = folder / REPORT_NAME
     write_whole(path, survey_html(log, result, flown, survey, plan))
     return path

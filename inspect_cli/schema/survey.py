@@ -44,6 +44,17 @@ def _day(value: str) -> str:
     return value
 
 
+class Georeference(Strict):
+    """Where on the Earth (WGS 84) the coordinates of readings begin, and how they are turned."""
+
+    longitude_deg: Annotated[float, Field(ge=-180, le=180)]
+    latitude_deg: Annotated[float, Field(gt=-90, lt=90)]
+    height_m: float = 0.0
+    """Above the ellipsoid."""
+    heading_deg: float = 0.0
+    """Of the y axis, clockwise from true north; at 0, x points east."""
+
+
 class SurveySettings(Strict):
     """How the readings of one file were taken, and who they belong to."""
 
@@ -67,6 +78,8 @@ class SurveySettings(Strict):
     """Of a list's coordinates where the header has no unit."""
     seen_from_m: Triple | None = None
     """A place before the surface, in the coordinates of a list with x, y and z."""
+    georeference: Georeference | None = None
+    """For exports to maps."""
     resistivity: str | None = None
     """File of resistivities at the same points, relative to the file of readings."""
     resistivity_unit: ResistivityUnit = "kohm_cm"

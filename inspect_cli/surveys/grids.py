@@ -14,10 +14,10 @@ import numpy as np
 
 from inspect_cli.errors import InputError, Location, Problem
 from inspect_cli.spatial.arrays import Matrix, Vector
-from inspect_cli.surveys.cells import Cells, shown
+from inspect_cli.surveys.cells import Cells
 from inspect_cli.surveys.files import read_cells
 from inspect_cli.surveys.layout import labelled_by_text, require_rows
-from inspect_cli.surveys.numbers import NumberReader, is_number
+from inspect_cli.surveys.numbers import NumberReader, is_gap, is_number
 from inspect_cli.surveys.units import Unit
 
 _ROW_WORDS = frozenset({"", "row", "rows", "zeile", "zeilen", "reihe", "reihen", "row/column"})
@@ -116,10 +116,21 @@ def _names(cells: Cells) -> tuple[bool, bool]:
     corner = cells.rows[0][0]
     by_word = isinstance(corner, str) and corner.strip().casefold() in _ROW_WORDS
     if by_word and cells.width > 1:
+        _refuse_readings_as_names(cells)
         return True, True
-    named = not any(is_number(value) for value in cells.rows[0])
+    named = not any(is_number(value) or is_gap(value) for value in cells.rows[0])
     require_rows(cells, int(named))
     return named, cells.width > 1 and labelled_by_text(cells, int(named))
+
+
+def _refuse_readings_as_names(cells: Cells) -> None:
+    """An empty first cell may be a reading that was not taken, beside others that were."""
+    names = [*cells.rows[0], *(row[0] for row in cells.rows)]
+    readings = (v for v in names if is_number(v) and str(v).strip().startswith(("-", "−")))
+    if not str(cells.rows[0][0]).strip() and next(readings, None) is not None:
+        what = "an empty cell beside negative numbers, which are no names"
+        hint = "write - if there is no reading, or 'row' above the rows' names"
+        raise cells.refused(0, 0, what, hint)
 
 
 def _unique(cells: Cells, places: list[tuple[int, int]]) -> tuple[str, ...]:
@@ -153,9 +164,7 @@ def _refuse_names_among_readings(
     rest = others[np.isfinite(others)]
     even = steps[0] > 0 and np.allclose(steps, steps[0], rtol=1e-9, atol=0.0)
     if suspect[0] >= 0 and even and rest.size and (rest < 0).all():
-        what = (
-            f"{shown(cells.rows[first[0]][first[1]])} and what follows look like the {noun}' names"
-        )
+        what = f"{cells.text(*first)} and what follows look like the {noun}' names"
         hint = "write 'row' into the first cell of the first line, above the rows' names"
         raise cells.refused(*first, what, hint)
 

@@ -83,8 +83,8 @@ def _heading(cells: Cells, j: int) -> Heading:
     unit, electrode, rest = _understood(note)
     wanted = DIMENSIONS.get(role)
     if rest or (unit and unit.dimension != wanted):
-        if len(stem) == 1 and not unit:
-            return Heading(None, None)  # "T (remarks)" is no temperature
+        if stem.casefold() == "t" and not unit:
+            return Heading(None, None)  # "T (remarks)" need not be a temperature
         what = f"the heading {value.strip()!r} has no unit of {wanted or 'anything'}: {note!r}"
         raise cells.refused(0, j, what, _choices(wanted))
     return Heading(role, unit, electrode)

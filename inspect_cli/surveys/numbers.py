@@ -99,16 +99,16 @@ class NumberReader:
             raise _refused(f"{cell.what} is not a plain number", here())
         if isinstance(cell, float):
             raise _refused("the number is not finite", here())
-        if is_gap(cell):
-            return math.nan
         text = _trimmed(cell)
-        match = _WITH_UNIT.fullmatch(text)
-        if match and not _NUMBER.fullmatch(text):
+        if not _NUMBER.fullmatch(text):
+            if is_gap(cell):
+                return math.nan
+            match = _WITH_UNIT.fullmatch(text)
+            if not match:
+                raise _refused(f"{shown(cell)} is not a number", here())
             _require_unit(match[2], unit, cell, here)
             text = match[1]
-        if not _NUMBER.fullmatch(text):
-            raise _refused(f"{shown(cell)} is not a number", here())
-        if "," in text:
+        if "," in text and not self._commas:
             self._commas.append(here())
         number = float(text.replace(",", "."))
         if not math.isfinite(number):
