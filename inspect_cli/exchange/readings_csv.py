@@ -23,7 +23,7 @@ def readings_csv(points: Sequence[PointResult], surfaces: Mapping[int, str | Non
 
     Numbers are written so that reading them back gives the same float; booleans as true, false.
     A text that a spreadsheet would run as a formula gets an apostrophe before it
-    (``surveys.defusing``).
+    (``surveys.defusing``); carriage returns in it become line feeds.
 
     Args:
         points: in the order of the lines.
@@ -43,4 +43,7 @@ def readings_csv(points: Sequence[PointResult], surfaces: Mapping[int, str | Non
 def _cell(value: object) -> object:
     if isinstance(value, bool):
         return "true" if value else "false"
-    return defused(value) if isinstance(value, str) else value
+    if isinstance(value, str):
+        # The csv module leaves a lone carriage return unquoted, which would end the line.
+        return defused(value).replace("\r\n", "\n").replace("\r", "\n")
+    return value

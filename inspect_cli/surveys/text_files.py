@@ -110,7 +110,7 @@ def _records(
     starts: list[int] = []
     rows: list[list[Value]] = []
     quoted = delimiter is not None and any('"' in line for line in lines)
-    reader = csv.reader(lines, delimiter=delimiter or ",", strict=True)
+    reader = csv.reader((f"{line}\n" for line in lines), delimiter=delimiter or ",", strict=True)
     records = reader if quoted else (line.split(delimiter) for line in lines)
     start = 1
     try:
