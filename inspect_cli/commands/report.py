@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
-from inspect_cli.commands.runs import log_of, write_model
+from inspect_cli.commands.runs import log_of, write_model, write_readings
 from inspect_cli.commands.survey_report import report_survey, survey_of
 from inspect_cli.log.reader import read_log
 from inspect_cli.metrics.evaluate import evaluate
@@ -41,6 +41,7 @@ def _report_one(run: Path, folder: Path, language: LanguageCode) -> ReportOutcom
     result = evaluate(log)
     folder.mkdir(parents=True, exist_ok=True)
     write_model(folder / "metrics.json", result)
+    write_readings(folder, result, log.plan())
     return ReportOutcome(result, write_report(log, result, folder, language))
 
 

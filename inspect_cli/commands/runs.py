@@ -18,9 +18,13 @@ from pathlib import Path
 from pydantic import BaseModel
 
 from inspect_cli.errors import InputError
+from inspect_cli.exchange.readings_csv import readings_csv
 from inspect_cli.files import write_whole
+from inspect_cli.schema.plan import Plan
+from inspect_cli.schema.result import Result
 
 LOG_NAME = "flight.mcap"
+READINGS_NAME = "readings.csv"
 LOCK_NAME = ".flying"
 RUN_FILES = (
     "plan.json",
@@ -28,7 +32,7 @@ RUN_FILES = (
     f"{LOG_NAME}.part",
     "metrics.json",
     "timing.json",
-    "readings.csv",
+    READINGS_NAME,
     "report.html",
 )
 SORTIES = "sortie-*"
@@ -99,3 +103,9 @@ def write_json(path: Path, data: object) -> None:
     """Write plain data as JSON."""
     path.parent.mkdir(parents=True, exist_ok=True)
     write_whole(path, (json.dumps(data, indent=1, sort_keys=True) + "\n").encode())
+
+
+def write_readings(folder: Path, result: Result, plan: Plan) -> None:
+    """Write ``readings.csv`` of a run into its folder."""
+    surfaces = {target.index: target.surface for target in plan.targets}
+    write_whole(folder / READINGS_NAME, readings_csv(result.points, surfaces))

@@ -7,7 +7,7 @@ from pathlib import Path
 
 from pydantic import ValidationError
 
-from inspect_cli.commands.runs import LOG_NAME, SORTIES, log_of, write_model
+from inspect_cli.commands.runs import LOG_NAME, SORTIES, log_of, write_model, write_readings
 from inspect_cli.errors import InputError, LogError
 from inspect_cli.log.reader import RunLog, read_log
 from inspect_cli.metrics.evaluate import evaluate
@@ -67,15 +67,18 @@ def report_survey(
         own = folder / sortie.folder
         own.mkdir(parents=True, exist_ok=True)
         write_model(own / "metrics.json", result)
+        write_readings(own, result, log.plan())
         write_report(log, result, own, language)
         results.append(result)
         first = first or log
     if first is None:
         raise InputError(f"{run} holds no flown sortie", hint="fly it first: inspect fly MISSION")
     flown = sum(len(sortie.plan.targets) for sortie in survey.sorties[: len(results)])
-    unvisited = survey.joined().targets[flown:]
+    plan = survey.joined()
+    unvisited = plan.targets[flown:]
     joined = joined_result(results, unvisited, first.mission().acceptance, _seed(run))
     write_model(folder / "metrics.json", joined)
+    write_readings(folder, joined, plan)
     page = write_survey_report(first, joined, results, survey, folder, language)
     return joined, page
 

@@ -1,4 +1,4 @@
-"""``report.html`` and ``readings.csv`` of a flight."""
+"""``report.html`` of a flight."""
 
 from __future__ import annotations
 
@@ -35,7 +35,6 @@ from inspect_cli.reporting.language import LanguageCode
 from inspect_cli.reporting.language import language as language_of
 from inspect_cli.reporting.points import ReadPoint, read_points
 from inspect_cli.reporting.provenance import provenance
-from inspect_cli.reporting.readings_csv import readings_csv
 from inspect_cli.reporting.recorded import recorded
 from inspect_cli.reporting.rows import rows_of
 from inspect_cli.reporting.summary import (
@@ -64,22 +63,19 @@ from inspect_cli.schema.plan import Plan
 from inspect_cli.schema.result import Result
 
 REPORT_NAME = "report.html"
-READINGS_NAME = "readings.csv"
 
 
 def write_report(log: RunLog, result: Result, folder: Path, language: LanguageCode = "en") -> Path:
-    """Write ``report.html`` and ``readings.csv`` into ``folder``; return the page's path.
+    """Write ``report.html`` into ``folder``; return the page's path.
 
     The page is one file that needs no network. It draws what ``result`` and ``log`` hold and
-    computes no finding; the same log and result give the same bytes. ``readings.csv`` is for
-    programs and the same in every language.
+    computes no finding; the same log and result give the same bytes.
 
     Raises:
         LogError: the log lacks the attachments that the report stands on.
-        EnvironmentFault: a file cannot be written.
+        EnvironmentFault: the file cannot be written.
     """
     plan = log.plan()
-    write_whole(folder / READINGS_NAME, readings_csv(result, plan))
     path = folder / REPORT_NAME
     write_whole(path, html(report_document(log, result, plan), language_of(language)))
     return path

@@ -1,4 +1,4 @@
-"""``report.html`` and ``readings.csv`` of a survey that took several sorties."""
+"""``report.html`` of a survey that took several sorties."""
 
 from __future__ import annotations
 
@@ -22,10 +22,8 @@ from inspect_cli.reporting.language import LanguageCode
 from inspect_cli.reporting.language import language as language_of
 from inspect_cli.reporting.points import read_points
 from inspect_cli.reporting.provenance import provenance
-from inspect_cli.reporting.readings_csv import readings_csv
 from inspect_cli.reporting.recorded import recorded
 from inspect_cli.reporting.report import (
-    READINGS_NAME,
     REPORT_NAME,
     cover,
     summary,
@@ -57,7 +55,7 @@ def write_survey_report(
     folder: Path,
     language: LanguageCode = "en",
 ) -> Path:
-    """Write ``report.html`` and ``readings.csv`` into ``folder``; return the page's path.
+    """Write ``report.html`` into ``folder``; return the page's path.
 
     Args:
         log: of the first sortie; mission, platform and versions are those of all.
@@ -68,7 +66,6 @@ def write_survey_report(
         language: of the page.
     """
     plan = survey.joined()
-    write_whole(folder / READINGS_NAME, readings_csv(result, plan))
     path = folder / REPORT_NAME
     document = survey_document(log, result, flown, survey, plan)
     write_whole(path, html(document, language_of(language)))

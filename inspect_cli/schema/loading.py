@@ -25,6 +25,7 @@ from inspect_cli.schema.references import (
     resolved_files,
 )
 from inspect_cli.schema.strict_yaml import read_yaml
+from inspect_cli.schema.survey import SurveySettings
 from inspect_cli.schema.truth import TruthModel
 from inspect_cli.schema.vehicle import PLATFORM_KINDS, PlatformBase
 
@@ -101,6 +102,19 @@ def load_platform(path: Path) -> PlatformBase:
         raise SchemaError(Problem(f"no such kind of platform: {found}", kind.at("kind"), hint))
     problems: list[Problem] = []
     model = _validated(PLATFORM_KINDS[kind.value], node, problems)
+    if model is None:
+        raise SchemaError(sorted(problems, key=_place))
+    return model
+
+
+def load_survey_settings(path: Path) -> SurveySettings:
+    """Read what a YAML file says about a file of readings.
+
+    Raises:
+        SchemaError: with every problem that was found in the file.
+    """
+    problems: list[Problem] = []
+    model = _validated(SurveySettings, read_yaml(path), problems)
     if model is None:
         raise SchemaError(sorted(problems, key=_place))
     return model

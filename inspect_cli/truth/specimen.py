@@ -25,7 +25,7 @@ from inspect_cli.compiled import kernel
 from inspect_cli.errors import InputError
 from inspect_cli.schema.truth import AnalyticSpecimen, GridSpecimen, Specimen
 from inspect_cli.spatial.arrays import Matrix, Points, Vector
-from inspect_cli.truth.table import read_table
+from inspect_cli.surveys.grids import read_numbers
 
 MV_TO_V: Final = 1e-3
 KOHM_CM_TO_OHM_M: Final = 10.0
@@ -123,8 +123,8 @@ def load_specimen(model: Specimen, root: Path) -> SpecimenField:
 
 
 def _load_grid(model: GridSpecimen, root: Path) -> GridField:
-    potential = read_table(root / model.potential_mv) * MV_TO_V
-    resistivity = read_table(root / model.resistivity_kohm_cm) * KOHM_CM_TO_OHM_M
+    potential = read_numbers(root / model.potential_mv).values * MV_TO_V
+    resistivity = read_numbers(root / model.resistivity_kohm_cm).values * KOHM_CM_TO_OHM_M
     if potential.shape != resistivity.shape:
         raise InputError(
             f"{model.potential_mv} has {_size(potential)} but "

@@ -112,10 +112,9 @@ def test_it_loads_nothing_and_holds_plotly_once(fly: Fly, report: Report) -> Non
 
 def test_same_log_same_bytes(fly: Fly, report: Report) -> None:
     first = report(fly())
-    before = first.path.read_bytes(), (first.path.parent / "readings.csv").read_bytes()
+    before = first.path.read_bytes()
     time.sleep(0.01)
-    second = report(fly())
-    assert (second.path.read_bytes(), (second.path.parent / "readings.csv").read_bytes()) == before
+    assert report(fly()).path.read_bytes() == before
 
 
 def test_a_long_flight_stays_small_and_quick(fly: Fly) -> None:
@@ -243,7 +242,7 @@ def test_write_report_returns_the_page(fly: Fly, tmp_path) -> None:
     log = fly(1, 1).log()
     path = write_report(log, evaluate(log), tmp_path / "new" / "folder")
     assert path == tmp_path / "new" / "folder" / "report.html"
-    assert sorted(p.name for p in path.parent.iterdir()) == ["readings.csv", "report.html"]
+    assert sorted(p.name for p in path.parent.iterdir()) == ["report.html"]
 
 
 def test_points_active_by_potential_alone_are_named(fly: Fly, report: Report) -> None:

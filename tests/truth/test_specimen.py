@@ -95,12 +95,12 @@ def test_tables_are_read_in_their_usual_shapes(tmp_path: Path, text: str) -> Non
 @pytest.mark.parametrize(
     ("text", "said"),
     [
-        ("row,A,B\n1,-1,-2\n2,-3,x\n", r"e\.csv:3.*value 2 of the row, 'x'"),
-        ("row,A,B\n1,-1,nan\n2,-3,-4\n", r"e\.csv:2.*value 2 of the row, 'nan'"),
-        ("-1,-2\n-3,inf\n", r"e\.csv:2.*'inf'"),
-        ("-1,-2\n-3,\n", r"e\.csv:2.*''"),
-        ("-1,-2\n-3\n", r"e\.csv:2.*1 values where the first line has 2"),
-        ("row,A,B,C\n1,-1,-2\n2,-1,-2\n", r"e\.csv:2.*2 values where the first line has 3"),
+        ("row,A,B\n1,-1,-2\n2,-3,x\n", r"e\.csv:3:6: cell C3: 'x' is not a number"),
+        ("row,A,B\n1,-1,nan\n2,-3,-4\n", r"e\.csv:2:6: cell C2: the file says 'nan'"),
+        ("-1,-2\n-3,inf\n", r"e\.csv:2:4: cell B2: 'inf'"),
+        ("-1,-2\n-3,\n", r"e\.csv:2:4: cell B2: the cell is empty"),
+        ("-1,-2\n-3\n", r"e\.csv:2: a row of 1 cells where the first has 2"),
+        ("row,A,B,C\n1,-1,-2\n2,-1,-2\n", r"e\.csv:2: a row of 3 cells where the first has 4"),
         ("row,A,B\n", r"no rows"),
         ("\n\n", r"empty"),
         ("-1,-2,-3,-4\n-1,-2,-3,-4\n", r"2 rows × 4 columns.*2 rows × 3 columns"),
@@ -117,11 +117,11 @@ def test_other_bad_tables_are_refused(tmp_path: Path) -> None:
     with pytest.raises(InputError, match="at least two rows"):
         load_specimen(grid(tmp_path, "-1,-2\n", "1,2\n"), tmp_path)
     model = grid(tmp_path)
-    (tmp_path / "e.csv").write_bytes(b"\xff\xfe\x00\x01")
-    with pytest.raises(InputError, match=r"e\.csv cannot be read"):
+    (tmp_path / "e.csv").write_bytes(b"\xff\xfe\x00")
+    with pytest.raises(InputError, match=r"e\.csv: cannot be read"):
         load_specimen(model, tmp_path)
     (tmp_path / "e.csv").unlink()
-    with pytest.raises(InputError, match=r"e\.csv cannot be read"):
+    with pytest.raises(InputError, match=r"e\.csv: cannot be read"):
         load_specimen(model, tmp_path)
 
 

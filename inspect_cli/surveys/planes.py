@@ -1,0 +1,56 @@
+"""Readings in space, laid out on the plane that fits them best."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from inspect_cli.spatial.arrays import Matrix, Points, Vector
+from inspect_cli.spatial.primitives import level_axes
+
+TOLERANCE_M = 0.02
+"""Farther from the plane than this, (u, v) misstates distances along the surface."""
+THIN = 1e-3
+"""Points whose second extent is less than this share of the first lie on a line."""
+
+
+@dataclass(frozen=True)
+class FittedPlane:
+    """p = p_WS + R_WS [u, v, 0], z_S outward, x_S level where the plane lets it be."""
+
+    p_WS: Vector
+    R_WS: Matrix
+    rms_m: float
+    """Root mean square of the points' distances from the plane,"""
+    max_m: float
+    """and the largest."""
+
+
+def fitted_plane(p_W: Points, seen_from_m: Vector) -> tuple[FittedPlane, Points] | None:
+    """The plane of least squared distances and the points' (u, v) (n, 2) on it, m.
+
+    The normal is the right singular vector of the centred points with the least singular value,
+    turned to the side of ``seen_from_m``; u then runs to the right and v up for whoever stands
+    there (``spatial.primitives.level_axes``). The origin is where u and v are least.
+
+    Args:
+        p_W: (n, 3), m.
+        seen_from_m: a place on the side that the readings were taken from.
+
+    Returns:
+        None if the points do not determine a plane.
+    """
+    middle = p_W.mean(axis=0)
+    _, extents, axes = np.linalg.svd(p_W - middle, full_matrices=False)
+    if len(p_W) < 3 or extents[1] <= THIN * extents[0]:
+        return None
+    n = axes[2] if axes[2] @ (seen_from_m - middle) > 0 else -axes[2]
+    R_WS = level_axes(n)
+    along = (p_W - middle) @ R_WS
+    corner = np.array([*along[:, :2].min(axis=0), 0.0])
+    off = np.abs(along[:, 2])
+    plane = FittedPlane(
+        middle + R_WS @ corner, R_WS, float(np.sqrt(np.mean(off**2))), float(off.max())
+    )
+    return plane, along[:, :2] - corner[:2]

@@ -1,0 +1,114 @@
+"""Whether numbers can be potentials of reinforcement, and resistivities of concrete.
+
+Typical potentials are −1000 to +200 mV against CSE (RILEM TC 154-EMC), so what lies beyond
+±2000 mV was read in another unit, and a whole survey of large positive numbers was taken by a
+device that leaves the minus out. What is merely unusual is for the assessment to say.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+import numpy as np
+
+from inspect_cli.errors import InputError, Location, Problem
+from inspect_cli.schema.survey import SurveySettings
+from inspect_cli.spatial.arrays import Mask, Vector
+from inspect_cli.surveys.units import Unit
+
+Where = Callable[[int], Location]
+
+MOST_MV = 2000.0
+POSITIVE_MV = 150.0
+"""Chloride-free and dry concrete reads up to about +200 mV, but not everywhere."""
+VOLTS_BELOW, MILLIVOLTS_ABOVE = 2.0, 20.0
+MOST_DECIMALS = 6
+
+
+def potentials_mv(
+    raw: Vector, unit: Unit, stated: bool, settings: SurveySettings, where: Where
+) -> Vector:
+    """Potentials (n,) in mV, with the sign that the settings ask for; NaN stays.
+
+    Args:
+        raw: as they stand in the file.
+        unit: theirs.
+        stated: whether somebody said so; otherwise it is assumed.
+        settings: for the sign.
+        where: the address of the k-th.
+
+    Raises:
+        InputError: they cannot be potentials in this unit; with the first odd cell's address.
+    """
+    valid = np.isfinite(raw)
+    if not valid.any():
+        raise InputError(Problem("there is not one reading", where(0)))
+    if unit.key == "mV":
+        _refuse_volts(raw, valid, stated, where)
+    # Rounded to a billionth of a millivolt: −0.35 V is −350 mV and nothing else.
+    values: Vector = raw if unit.key == "mV" else np.round(raw * unit.factor, 9)
+    beyond = valid & (np.abs(values) > MOST_MV)
+    if beyond.any():
+        k = int(np.flatnonzero(beyond)[0])
+        other = "mV" if unit.key == "V" else "V"
+        what = f"{raw[k]:g} {unit.name} is no half-cell potential: beyond ±{MOST_MV:g} mV"
+        hint = f"correct the cell, or state potential_unit: {other} if that is what was read"
+        raise InputError(Problem(what, where(k), hint if unit.key == "V" else "correct the cell"))
+    if settings.sign == "inverted":
+        return -values
+    positive = (values[valid] > 0).all() and values[valid].max() > POSITIVE_MV
+    if positive and "sign" not in settings.model_fields_set:
+        what = f"all potentials are positive, up to {values[valid].max():g} mV"
+        hint = (
+            "state sign: inverted if the device showed −350 mV as 350, "
+            "or sign: as_read if they are positive indeed"
+        )
+        raise InputError(Problem(what, where(int(np.flatnonzero(valid)[0])), hint))
+    return values
+
+
+def resistivities_ohm_m(raw: Vector, unit: Unit, where: Where) -> Vector:
+    """Resistivities (n,) in Ω·m; NaN stays.
+
+    Raises:
+        InputError: one is not positive; with its address.
+    """
+    wrong = raw <= 0.0
+    if wrong.any():
+        k = int(np.flatnonzero(wrong)[0])
+        raise InputError(Problem(f"{raw[k]:g} is not a positive resistivity", where(k)))
+    values: Vector = raw * unit.factor
+    return values
+
+
+def _refuse_volts(raw: Vector, valid: Mask, stated: bool, where: Where) -> None:
+    """Numbers in volts that are taken for millivolts, all of them or some.
+
+    Of readings in mV, those near zero are whole, or have no more decimals than the others and,
+    where the unit is only assumed, others between ``VOLTS_BELOW`` and ``MILLIVOLTS_ABOVE`` beside
+    them: potentials of one surface run on from place to place.
+    """
+    magnitude = np.where(valid, np.abs(raw), 0.0)
+    small = (magnitude > 0) & (magnitude < VOLTS_BELOW) & (raw != np.round(raw))
+    large = magnitude > MILLIVOLTS_ABOVE
+    if not large.any() and not stated and small.any() and magnitude.max() < VOLTS_BELOW:
+        k = int(np.flatnonzero(small)[0])
+        what = f"{raw[k]:g}, like all others, looks like volts where millivolts are assumed"
+        hint = "state potential_unit: V, or potential_unit: mV if it is so"
+        raise InputError(Problem(what, where(k), hint))
+    if not large.any() or not small.any():
+        return
+    if stated or (valid & (magnitude > VOLTS_BELOW) & ~large).any():
+        big = raw[large]
+        fits = (d for d in range(MOST_DECIMALS) if (np.round(big, d) == big).all())
+        decimals = next(fits, MOST_DECIMALS)
+        small &= raw != np.round(raw, decimals)
+        if not small.any():
+            return
+    odd = small if small.sum() <= large.sum() else large
+    k = int(np.flatnonzero(odd)[0])
+    of, among = ("V", "mV") if odd is small else ("mV", "V")
+    what = f"{raw[k]:g} looks like {of} among readings in {among}"
+    raise InputError(
+        Problem(what, where(k), "give all potentials in one unit, and state potential_unit")
+    )
