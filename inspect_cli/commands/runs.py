@@ -3,6 +3,7 @@
 reports/<mission>/<platform>/plan.json                       a plan
 reports/<mission>/<platform>-seed<N>/                        a run
     plan.json  flight.mcap  metrics.json  timing.json  readings.csv  report.html
+    scene.png  film.mp4
     sortie-<k>/                                          the same again for each flight of a survey,
                                                          whose own folder has no log
 """
@@ -19,6 +20,7 @@ from pydantic import BaseModel
 
 from inspect_cli.errors import InputError
 from inspect_cli.files import write_whole
+from inspect_cli.pictures.names import FILM_NAME, SCENE_NAME
 
 LOG_NAME = "flight.mcap"
 LOCK_NAME = ".flying"
@@ -30,6 +32,8 @@ RUN_FILES = (
     "timing.json",
     "readings.csv",
     "report.html",
+    SCENE_NAME,
+    FILM_NAME,
 )
 SORTIES = "sortie-*"
 """The folders of a survey's flights."""

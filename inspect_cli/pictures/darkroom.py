@@ -2,8 +2,7 @@
 
     python -m inspect_cli.pictures.darkroom FOLDER
 
-reads ``script.npz`` there and writes ``scene.png``, then ``film.mp4``. On standard output stands
-what it is about to do, one word a line, so that whoever started it knows how far it came.
+reads ``script.npz`` there and writes ``scene.png``, then ``film.mp4``.
 """
 
 from __future__ import annotations
@@ -18,12 +17,11 @@ import numpy as np
 
 from inspect_cli.pictures.film import encode_film
 from inspect_cli.pictures.lettering import lettered, png_of, with_inset
+from inspect_cli.pictures.names import FILM_NAME, SCENE_NAME
 from inspect_cli.pictures.script import (
-    FILM_NAME,
     FILM_PX,
     FPS,
     INSET_PX,
-    SCENE_NAME,
     SCENE_PX,
     Script,
     Shot,
@@ -31,25 +29,20 @@ from inspect_cli.pictures.script import (
 )
 from inspect_cli.spatial.arrays import Vector
 
-STARTING, STILL, FILM = "starting", "scene", "film"
-"""The stages, in order."""
 STILL_SHADOW_PX, FILM_SHADOW_PX = 4096, 2048
 
 
 def main(folder: Path) -> None:
     """Render what the script in the folder asks for."""
     script = load_script(folder)
-    _announce(STARTING)
     model = mujoco.MjModel.from_binary_path("scene.mjb", {"scene.mjb": script.model.tobytes()})
     with _renderer(model, SCENE_PX, STILL_SHADOW_PX) as wide:
-        _announce(STILL)
         [image] = _frames(script, script.still, model, wide, None)
         (folder / SCENE_NAME).write_bytes(png_of(image))
     with (
         _renderer(model, FILM_PX, FILM_SHADOW_PX) as wide,
         _renderer(model, (INSET_PX, INSET_PX), FILM_SHADOW_PX) as close,
     ):
-        _announce(FILM)
         frames = _frames(script, script.film, model, wide, close)
         encode_film(folder / FILM_NAME, frames, FILM_PX, FPS)
 
@@ -59,11 +52,6 @@ def _renderer(model: mujoco.MjModel, size_px: tuple[int, int], shadow_px: int) -
     model.vis.global_.offwidth, model.vis.global_.offheight = size_px
     model.vis.quality.shadowsize = shadow_px
     return mujoco.Renderer(model, height=size_px[1], width=size_px[0])
-
-
-def _announce(stage: str) -> None:
-    sys.stdout.write(f"{stage}\n")
-    sys.stdout.flush()
 
 
 def _frames(
@@ -84,7 +72,7 @@ def _frames(
         model.geom_rgba[script.marks, 3] = shot.visible[k]
         wide.update_scene(data, camera)
         image = wide.render()
-        if close is not None:
+        if close is not None and shot.close_eyes_W is not None and shot.close_at_W is not None:
             close.scene.flags[mujoco.mjtRndFlag.mjRND_SHADOW] = 0
             close.update_scene(data, _camera(shot.close_eyes_W[k], shot.close_at_W[k]))
             image = with_inset(image, close.render(), shot.close_on_right)

@@ -8,8 +8,9 @@ from dataclasses import dataclass
 import mujoco
 import numpy as np
 
+from inspect_cli.log.layout import Bytes
 from inspect_cli.log.reader import RunLog
-from inspect_cli.pictures.marks import INVALID, Mark, MarkStyle, marks_of, places
+from inspect_cli.pictures.marks import Mark, MarkStyle, marks_of
 from inspect_cli.pictures.motion import Motion, motion_of, telling_moment
 from inspect_cli.pictures.script import FILM_PX, FPS, SCENE_PX, LegendEntry, Script, Shot
 from inspect_cli.pictures.stage import FIELD_OF_VIEW_DEG, SEGMENTS, build_stage
@@ -58,23 +59,30 @@ def direct(log: RunLog, result: Result, styles: Mapping[str, MarkStyle]) -> Dire
     still_s, touching = telling_moment(log, motion)
     film_s, speed = _film_times(motion)
     shown = _shown(plan, motion, span_m)
-    view = best_view(plan, shown, _watched(plan, motion), _beside(plan, motion, still_s), _FOV, FILM_PX[0] / FILM_PX[1])
+    view = best_view(
+        plan,
+        shown,
+        _watched(plan, motion),
+        _beside(plan, motion, still_s),
+        _FOV,
+        FILM_PX[0] / FILM_PX[1],
+    )
     center, extent = shown.mean(axis=0), float(np.ptp(shown, axis=0).max())
-    model = build_stage(vehicle, plan.surfaces, marks, _sun(plan, view), _overhead(plan), center, extent)
+    model = build_stage(
+        vehicle, plan.surfaces, marks, _sun(plan, view), _overhead(plan), center, extent
+    )
     legend = _legend(marks, styles)
     still = _still(plan, motion, marks, still_s, view, span_m)
     film = _film(plan, motion, marks, film_s, view, span_m, speed)
     names = [model.geom(f"mark:{k}").id for k in range(len(marks))]
-    script = Script(
-        _saved(model), np.array(names, dtype=np.int32), still, film, legend
-    )
+    script = Script(_saved(model), np.array(names, dtype=np.int32), still, film, legend)
     return Direction(script, motion, still_s, touching, speed)
 
 
 _FOV = float(np.radians(FIELD_OF_VIEW_DEG))
 
 
-def _saved(model: mujoco.MjModel) -> Vector:
+def _saved(model: mujoco.MjModel) -> Bytes:
     buffer = np.zeros(mujoco.mj_sizeModel(model), dtype=np.uint8)
     mujoco.mj_saveModel(model, None, buffer)
     return buffer
@@ -205,7 +213,13 @@ def _close_camera(
 
 def _clock(t_s: float, speed: float) -> str:
     minutes, seconds = divmod(int(t_s), 60)
-    pace = "" if speed < 1.05 else f"  ·  {speed:.0f}x speed" if speed >= 9.5 else f"  ·  {speed:.1f}x speed"
+    pace = (
+        ""
+        if speed < 1.05
+        else f"  ·  {speed:.0f}x speed"
+        if speed >= 9.5
+        else f"  ·  {speed:.1f}x speed"
+    )
     return f"{minutes}:{seconds:02d} min{pace}"
 
 
@@ -215,9 +229,7 @@ def _visible(marks: Sequence[Mark], times: Vector) -> Mask:
     return (begins <= times[:, None]) & (times[:, None] < ends)
 
 
-def _legend(
-    marks: Sequence[Mark], styles: Mapping[str, MarkStyle]
-) -> tuple[LegendEntry, ...]:
+def _legend(marks: Sequence[Mark], styles: Mapping[str, MarkStyle]) -> tuple[LegendEntry, ...]:
     """The classes that occur, in the order of the styles."""
     met = {mark.meaning for mark in marks}
     return tuple(

@@ -75,7 +75,9 @@ def _add_ring_mesh(spec: mujoco.MjSpec, radius_m: float) -> None:
     both = np.roll(ahead, -1, axis=1)
     faces = np.stack([number, ahead, both, number, both, up], axis=-1)
     spec.add_mesh(
-        name=RING, uservert=nodes.ravel(), userface=faces.ravel().astype(np.int32),
+        name=RING,
+        uservert=nodes.ravel(),
+        userface=faces.ravel().astype(np.int32),
         inertia=mujoco.mjtMeshInertia.mjMESH_INERTIA_SHELL,
     )
 

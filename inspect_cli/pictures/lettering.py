@@ -83,9 +83,7 @@ def _panel(
         x += entry_width + gap
 
 
-def _sign(
-    draw: ImageDraw.ImageDraw, x: float, y: float, radius: float, entry: LegendEntry
-) -> None:
+def _sign(draw: ImageDraw.ImageDraw, x: float, y: float, radius: float, entry: LegendEntry) -> None:
     if entry.symbol == "square":
         half = 0.89 * radius
         draw.rectangle((x - half, y - half, x + half, y + half), fill=entry.colour)

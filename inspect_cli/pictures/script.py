@@ -8,13 +8,15 @@ from __future__ import annotations
 import json
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
+from inspect_cli.log.layout import Bytes
+from inspect_cli.pictures.names import SCRIPT_NAME
 from inspect_cli.pictures.views import View
-from inspect_cli.spatial.arrays import Indices, Mask, Points, Vector
+from inspect_cli.spatial.arrays import Indices, Mask, Points
 
-SCRIPT_NAME, SCENE_NAME, FILM_NAME = "script.npz", "scene.png", "film.mp4"
 SCENE_PX, FILM_PX = (1280, 720), (854, 480)
 INSET_PX = 190
 """Width and height of the close view in a film's corner."""
@@ -52,8 +54,8 @@ class Shot:
 class Script:
     """A still and a film."""
 
-    model: Indices
-    """The compiled MuJoCo model, as bytes (uint8)."""
+    model: Bytes
+    """The compiled MuJoCo model."""
     marks: Indices
     """Numbers of the geoms of the marks."""
     still: Shot
@@ -63,7 +65,7 @@ class Script:
 
 def save_script(script: Script, folder: Path) -> None:
     """Write the script where the darkroom looks for it."""
-    arrays: dict[str, Vector] = {"model": script.model, "marks": script.marks}
+    arrays: dict[str, Any] = {"model": script.model, "marks": script.marks}
     words: dict[str, object] = {"legend": [vars(entry) for entry in script.legend]}
     for name, shot in (("still", script.still), ("film", script.film)):
         arrays[f"{name}.qpos"] = shot.qpos
@@ -72,7 +74,8 @@ def save_script(script: Script, folder: Path) -> None:
         if shot.close_eyes_W is not None and shot.close_at_W is not None:
             arrays[f"{name}.close"] = np.stack([shot.close_eyes_W, shot.close_at_W])
         words[name] = {"close_on_right": shot.close_on_right, "lettering": shot.lettering}
-    np.savez(folder / SCRIPT_NAME, words=np.array(json.dumps(words)), **arrays)
+    arrays["words"] = np.array(json.dumps(words))
+    np.savez(folder / SCRIPT_NAME, **arrays)
 
 
 def load_script(folder: Path) -> Script:
@@ -81,7 +84,7 @@ def load_script(folder: Path) -> Script:
         words = json.loads(str(arrays["words"]))
         shots = []
         for name in ("still", "film"):
-            close = arrays[f"{name}.close"] if f"{name}.close" in arrays else (None, None)
+            close = arrays.get(f"{name}.close", (None, None))
             shots.append(
                 Shot(
                     arrays[f"{name}.qpos"],

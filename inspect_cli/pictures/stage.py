@@ -8,7 +8,7 @@ import mujoco
 import numpy as np
 
 from inspect_cli.pictures.dressing import dressed
-from inspect_cli.pictures.looks import CONCRETE, CONCRETE_TILE_M, HORIZON, add_looks
+from inspect_cli.pictures.looks import CONCRETE, CONCRETE_TILE_M, DIMMED, HORIZON, add_looks
 from inspect_cli.pictures.marks import Mark
 from inspect_cli.schema.plan import PlannedSurface
 from inspect_cli.schema.primitives import primitive_of
@@ -24,7 +24,7 @@ SEGMENTS = 48
 FIELD_OF_VIEW_DEG = 32.0
 WIDEST, HIGHEST = 1280, 720
 MARK_HALF_M = 0.004
-SHADOW_REACH = 2.0
+SHADOW_REACH = 1.7
 """Of the scene's size; beyond it nothing throws a shadow."""
 
 
@@ -195,7 +195,7 @@ def _add_mark(spec: mujoco.MjSpec, name: str, mark: Mark) -> None:
         pos=mark.p_W,
         quat=matrix_to_quaternion(_mark_axes(mark)),
         material="mark",
-        rgba=[*mark.rgba[:3], 0.0],
+        rgba=[*(DIMMED * np.array(mark.rgba[:3])), 0.0],
         contype=0,
         conaffinity=0,
     )

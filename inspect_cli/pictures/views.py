@@ -18,7 +18,11 @@ SHORT_M = 0.02
 """A ray that ends so much before its point is taken to have reached it."""
 AZIMUTHS_DEG = (52.0, -52.0, 38.0, -38.0, 70.0, -70.0, 20.0, -20.0, 0.0)
 """From the direction that the surfaces face."""
-ELEVATIONS_DEG = {"wall": (19.0, 7.0, 24.0, -6.0), "above": (-7.0, 2.0, 12.0), "below": (24.0, 38.0)}
+ELEVATIONS_DEG = {
+    "wall": (19.0, 7.0, 24.0, -6.0),
+    "above": (-7.0, 2.0, 12.0),
+    "below": (24.0, 38.0),
+}
 OVERHEAD, UNDERFOOT = -0.5, 0.5
 """z of a normal beyond which a surface hangs over the vehicle, or lies under it."""
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import numpy as np
+from numpy.typing import NDArray
 
 from inspect_cli.spatial.arrays import Points, Structured, Vector
 from inspect_cli.spatial.primitives import point_at
@@ -24,7 +25,7 @@ def patch_nodes(patch: Structured, segments: tuple[int, int]) -> Points:
     return np.array([[point_at(patch, 0, a, b) for a in u] for b in v])
 
 
-def grid_triangles(segments: tuple[int, int]) -> Points:
+def grid_triangles(segments: tuple[int, int]) -> NDArray[np.int64]:
     """Triangles (n, 3): numbers of the nodes, row by row, counter-clockwise seen against n."""
     columns = segments[0] + 1
     corner = np.arange(segments[1])[:, None] * columns + np.arange(segments[0])
