@@ -29,6 +29,7 @@ def dressed(vehicle: Vehicle) -> mujoco.MjSpec:
     p_BR = _rotor_places(spec)
     _add_ring_mesh(spec, vehicle.actuators.rotor_radius_m)
     tip_B = _in_core(spec, "tool_tip")
+    _add_hull(spec, p_BR)
     for index, (name, place) in enumerate(p_BR.items()):
         site = spec.site(name)
         ahead = _level_cosine(place, tip_B) > AHEAD
@@ -41,9 +42,9 @@ def _paint(spec: mujoco.MjSpec) -> None:
     for body, colour in (("core", HULL), ("tool", TOOL), ("gear", BOOM), ("shell", INVISIBLE)):
         for geom in spec.body(body).geoms:
             geom.rgba = colour
-    for geom in spec.body("shell").geoms:
-        if geom.name == "hull":
-            geom.rgba = HULL
+    hull = next((geom for geom in spec.body("shell").geoms if geom.name == "hull"), None)
+    if hull is not None:
+        hull.rgba = HULL
     spec.geom("tip").rgba = FRONT
 
 
@@ -79,6 +80,21 @@ def _add_ring_mesh(spec: mujoco.MjSpec, radius_m: float) -> None:
         uservert=nodes.ravel(),
         userface=faces.ravel().astype(np.int32),
         inertia=mujoco.mjtMeshInertia.mjMESH_INERTIA_SHELL,
+    )
+
+
+def _add_hull(spec: mujoco.MjSpec, p_BR: dict[str, Vector]) -> None:
+    """A body for a vehicle whose shell has no geom ``hull`` that could be shown."""
+    if any(geom.name == "hull" for geom in spec.body("shell").geoms):
+        return
+    reach = max((float(np.linalg.norm(p[:2])) for p in p_BR.values()), default=0.3)
+    spec.body("core").add_geom(
+        type=mujoco.mjtGeom.mjGEOM_ELLIPSOID,
+        size=[0.4 * reach, 0.4 * reach, 0.15 * reach],
+        rgba=HULL,
+        contype=0,
+        conaffinity=0,
+        mass=0.0,
     )
 
 

@@ -145,7 +145,7 @@ def slab(patch: Structured, segments: tuple[int, int]) -> tuple[Points, Points, 
     back = front - _thickness(patch) * n
     uv = np.stack(np.meshgrid(u, v), axis=-1)
     parts = [(front, n, uv), (back[:, ::-1], -n[:, ::-1], uv[:, ::-1])]
-    parts += [_rim(front, back, uv, side) for side in range(4)]
+    parts += [_rim(front, back, uv, edge, float(patch["side"][0])) for edge in range(4)]
     vertices, normals, coordinates, faces = [], [], [], []
     count = 0
     for p, m, st in parts:
@@ -155,8 +155,14 @@ def slab(patch: Structured, segments: tuple[int, int]) -> tuple[Points, Points, 
         coordinates.append(st.reshape(-1, 2))
         faces.append(grid_triangles((columns - 1, rows - 1)) + count)
         count += rows * columns
-    joined = (np.concatenate(part) for part in (vertices, normals, coordinates))
-    return *joined, np.concatenate(faces).astype(np.int32)  # type: ignore[return-value]
+    if patch["side"][0] < 0.0:  # (u, v, n) is then left-handed
+        faces = [triangles[:, ::-1] for triangles in faces]
+    return (
+        np.concatenate(vertices),
+        np.concatenate(normals),
+        np.concatenate(coordinates),
+        np.concatenate(faces).astype(np.int32),
+    )
 
 
 def _thickness(patch: Structured) -> float:
@@ -166,15 +172,17 @@ def _thickness(patch: Structured) -> float:
     return min(THICKNESS_M, 0.5 * radius) if round_and_solid else THICKNESS_M
 
 
-def _rim(front: Points, back: Points, uv: Points, side: int) -> tuple[Points, Points, Points]:
+def _rim(
+    front: Points, back: Points, uv: Points, which: int, side: float
+) -> tuple[Points, Points, Points]:
     """One of the four edges as a grid of two rows: bottom, top, left, right."""
     edge = ((0, slice(None)), (-1, slice(None, None, -1)),
-            (slice(None, None, -1), 0), (slice(None), -1))[side]  # fmt: skip
+            (slice(None, None, -1), 0), (slice(None), -1))[which]  # fmt: skip
     outer, inner = front[edge], back[edge]
     along = np.gradient(outer, axis=0)
     across = np.cross(along, outer - inner)
     lengths = np.linalg.norm(across, axis=1, keepdims=True)
-    normals = across / np.maximum(lengths, 1e-12)
+    normals = side * across / np.maximum(lengths, 1e-12)
     normals[lengths[:, 0] < 1e-12] = (0.0, 0.0, 1.0)  # an edge that is one point, a pole
     return (
         np.stack([inner, outer]),
