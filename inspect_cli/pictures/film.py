@@ -17,7 +17,7 @@ CONTAINER = {"movflags": "+faststart", "fflags": "+bitexact"}
 def encode_film(path: Path, frames: Iterable[Any], size_px: tuple[int, int], fps: int) -> None:
     """Write an MP4 file of RGB images (height, width, 3) uint8; the same images, the same bytes.
 
-    Width and height are even, as 4:2:0 asks.
+    That holds for a width and height that are multiples of 16, the encoder's blocks.
     """
     with av.open(str(path), "w", format="mp4", options=CONTAINER) as container:
         stream: Any = container.add_stream(CODEC, rate=fps, options=OPTIONS)

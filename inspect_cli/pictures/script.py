@@ -17,7 +17,9 @@ from inspect_cli.pictures.names import SCRIPT_NAME
 from inspect_cli.pictures.views import View
 from inspect_cli.spatial.arrays import Indices, Mask, Points
 
-SCENE_PX, FILM_PX = (1280, 720), (854, 480)
+SCENE_PX, FILM_PX = (1280, 720), (848, 480)
+"""A film's sizes are multiples of 16, the encoder's blocks: what fills up a block that is not
+whole differs from run to run, and the bytes with it."""
 INSET_PX = 190
 """Width and height of the close view in a film's corner."""
 FPS = 12

@@ -39,7 +39,7 @@ class Pictures:
     """1280 × 720."""
     scene_caption: str = ""
     film_mp4: bytes | None = None
-    """854 × 480, H.264 without sound."""
+    """848 × 480, H.264 without sound."""
     film_caption: str = ""
     note: str = ""
     """Why the scene or the film is missing, in one sentence; empty when there are both."""
