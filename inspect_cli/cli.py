@@ -166,14 +166,17 @@ def report(
     runs: Annotated[list[Path], typer.Argument(metavar="RUN|LOG...", help="Run folders or logs.")],
     out: ReportOut = None,
     language: Language = "en",
+    pictures: Annotated[
+        bool, typer.Option("--pictures/--no-pictures", help="Render a scene and a short film.")
+    ] = True,
     as_json: Json = False,
 ) -> int:
-    """Report flights: metrics, readings and an HTML page."""
+    """Report flights: metrics, readings, an HTML page and pictures."""
     from inspect_cli import terminal
     from inspect_cli.commands.report import report as command
 
     with _stdout_kept_clean():
-        outcomes = command(runs, out, language)
+        outcomes = command(runs, out, language, pictures=pictures)
     if as_json:
         reports = [
             {"page": str(o.page), "result": o.result.model_dump(mode="json", by_alias=True)}
@@ -182,7 +185,8 @@ def report(
         _print_json({"reports": reports})
     else:
         for outcome in outcomes:
-            terminal.print_report(outcome.result, outcome.page)
+            note = outcome.pictures.note if outcome.pictures else ""
+            terminal.print_report(outcome.result, outcome.page, note)
     return EXIT_GOOD if all(o.result.passed for o in outcomes) else EXIT_CHECK_FAILED
 
 

@@ -198,9 +198,10 @@ def print_flight(result: Result, folder: Path) -> None:
     out.print(f"next: inspect report {shlex.quote(str(_near(folder)))}", soft_wrap=True)
 
 
-def print_report(result: Result, page: Path) -> None:
-    """A reported run and its page."""
+def print_report(result: Result, page: Path, note: str = "") -> None:
+    """A reported run and its page, and what is to be said of its pictures."""
     _print_result(result)
+    _print_warnings([note] if note else [])
     console().print(f"report: {_near(page)}", soft_wrap=True)
 
 

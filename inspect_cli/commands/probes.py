@@ -66,7 +66,8 @@ def physics() -> str:
 
 
 def rendering() -> str:
-    """Render one frame without a screen."""
+    """Render one frame without a screen, and see that a film of it could be encoded."""
+    import av
     import mujoco
 
     model = mujoco.MjModel.from_xml_string(FALLING_BOX)
@@ -77,7 +78,10 @@ def rendering() -> str:
         image = renderer.render()
     if image.max() == 0:
         raise RuntimeError("the frame is black")
-    return f"a frame of {image.shape[1]} × {image.shape[0]}, {os.environ.get('MUJOCO_GL', '')}"
+    av.CodecContext.create("libx264", "w")
+    return (
+        f"a frame of {image.shape[1]} × {image.shape[0]}, {os.environ.get('MUJOCO_GL', '')}; H.264"
+    )
 
 
 def clouds() -> str:

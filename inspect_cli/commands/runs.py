@@ -3,6 +3,7 @@
 reports/<mission>/<platform>/plan.json                       a plan
 reports/<mission>/<platform>-seed<N>/                        a run
     plan.json  flight.mcap  metrics.json  timing.json  readings.csv  report.html
+    scene.png  film.mp4
     sortie-<k>/                                          the same again for each flight of a survey,
                                                          whose own folder has no log
 """
@@ -20,6 +21,7 @@ from pydantic import BaseModel
 from inspect_cli.errors import InputError
 from inspect_cli.exchange.readings_csv import readings_csv
 from inspect_cli.files import write_whole
+from inspect_cli.pictures.names import FILM_NAME, SCENE_NAME
 from inspect_cli.schema.plan import Plan
 from inspect_cli.schema.result import Result
 
@@ -34,6 +36,8 @@ RUN_FILES = (
     "timing.json",
     READINGS_NAME,
     "report.html",
+    SCENE_NAME,
+    FILM_NAME,
 )
 SORTIES = "sortie-*"
 """The folders of a survey's flights."""

@@ -7,11 +7,13 @@ from pathlib import Path
 
 from pydantic import ValidationError
 
+from inspect_cli.commands.pictures import pictured
 from inspect_cli.commands.runs import LOG_NAME, SORTIES, log_of, write_model, write_readings
 from inspect_cli.errors import InputError, LogError
 from inspect_cli.log.reader import RunLog, read_log
 from inspect_cli.metrics.evaluate import evaluate
 from inspect_cli.metrics.survey import joined_result
+from inspect_cli.pictures.take import Pictures
 from inspect_cli.reporting.language import LanguageCode
 from inspect_cli.reporting.report import write_report
 from inspect_cli.reporting.survey import write_survey_report
@@ -49,9 +51,16 @@ def survey_of(run: Path) -> CoveragePlan | None:
 
 
 def report_survey(
-    run: Path, survey: CoveragePlan, folder: Path, language: LanguageCode = "en"
-) -> tuple[Result, Path]:
+    run: Path,
+    survey: CoveragePlan,
+    folder: Path,
+    language: LanguageCode = "en",
+    *,
+    pictures: bool = False,
+) -> tuple[Result, Path, Pictures | None]:
     """Score and report every sortie that was flown, and the survey they make together.
+
+    Its pictures, where wanted, are those of the first sortie.
 
     Raises:
         LogError: the log of a sortie is damaged; the others can be reported one by one.
@@ -79,8 +88,10 @@ def report_survey(
     joined = joined_result(results, unvisited, first.mission().acceptance, _seed(run))
     write_model(folder / "metrics.json", joined)
     write_readings(folder, joined, plan)
+    which = f"sortie 1 of {len(results)}"
+    taken = pictured(first, results[0], folder, wanted=pictures, flight=which)
     page = write_survey_report(first, joined, results, survey, folder, language)
-    return joined, page
+    return joined, page, taken
 
 
 def _flown(run: Path, survey: CoveragePlan) -> list[tuple[Sortie, Path]]:

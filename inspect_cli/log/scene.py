@@ -18,7 +18,8 @@ from inspect_cli.log.foxglove import WORLD_FRAME, timestamp_of
 from inspect_cli.schema.plan import Plan, PlannedSurface, Target
 from inspect_cli.schema.primitives import primitive_of
 from inspect_cli.spatial.arrays import Points
-from inspect_cli.spatial.primitives import PLANE, point_at
+from inspect_cli.spatial.patches import grid_triangles, patch_nodes
+from inspect_cli.spatial.primitives import PLANE
 
 CONCRETE = Color(r=0.72, g=0.72, b=0.70, a=0.6)
 PATH = Color(r=0.10, g=0.45, b=0.85, a=1.0)
@@ -44,22 +45,13 @@ def _entity(time_ns: int, name: str) -> SceneEntity:
 def _surface(time_ns: int, surface: PlannedSurface) -> SceneEntity:
     """A patch as triangles between the nodes of a regular (u, v) grid."""
     patch = primitive_of(surface.shape)
-    segments = 1 if patch["kind"][0] == PLANE else SEGMENTS
-    half_u, half_v = patch["half_size"][0]
-    nodes = [
-        point_at(patch, 0, u, v)
-        for v in np.linspace(-half_v, half_v, segments + 1)
-        for u in np.linspace(-half_u, half_u, segments + 1)
-    ]
-    corner = np.arange(segments)[:, None] * (segments + 1) + np.arange(segments)
-    right, above = corner + 1, corner + segments + 1
-    triangles = np.stack([corner, right, above, right, above + 1, above], axis=-1)
+    segments = (1, 1) if patch["kind"][0] == PLANE else (SEGMENTS, SEGMENTS)
     entity = _entity(time_ns, f"surface/{surface.name}")
     entity.triangles.add(
         pose=_pose((0.0, 0.0, 0.0)),
-        points=_points(np.array(nodes)),
+        points=_points(patch_nodes(patch, segments).reshape(-1, 3)),
         color=CONCRETE,
-        indices=triangles.ravel().tolist(),
+        indices=grid_triangles(segments).ravel().tolist(),
     )
     return entity
 

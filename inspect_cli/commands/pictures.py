@@ -1,0 +1,36 @@
+"""The pictures of ``inspect report``: taken, and written beside the page."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from inspect_cli.files import write_whole
+from inspect_cli.log.reader import RunLog
+from inspect_cli.pictures.names import FILM_NAME, SCENE_NAME
+from inspect_cli.pictures.take import Pictures, take_pictures
+from inspect_cli.reporting.palette import ASTM_STYLES, INVALID_STYLE
+from inspect_cli.schema.result import Result
+
+
+def pictured(
+    log: RunLog, result: Result, folder: Path, *, wanted: bool, flight: str = ""
+) -> Pictures | None:
+    """Take the pictures of a flight and write ``scene.png`` and ``film.mp4`` into ``folder``.
+
+    None where none are ``wanted``. A file of an earlier report that has no successor is removed:
+    a folder shows one flight. ``flight`` says which of several it is.
+
+    Raises:
+        LogError: the log lacks the attachments that the pictures stand on.
+        EnvironmentFault: a file cannot be written.
+    """
+    taken = Pictures()
+    if wanted:
+        styles = {**ASTM_STYLES, "invalid": INVALID_STYLE}
+        taken = take_pictures(log, result, styles, flight)
+    for name, content in ((SCENE_NAME, taken.scene_png), (FILM_NAME, taken.film_mp4)):
+        if content is None:
+            (folder / name).unlink(missing_ok=True)
+        else:
+            write_whole(folder / name, content)
+    return taken if wanted else None
