@@ -83,6 +83,27 @@ def _comparable(flight: Flight) -> list[PointResult]:
     return points
 
 
+def potential_min(flight: Flight) -> float:
+    """Least potential, V, of the valid readings."""
+    return _most_negative(flight)[0]
+
+
+def potential_min_point(flight: Flight) -> float:
+    """Which of the points, k = 1, 2, … in the plan's order, has the least valid potential."""
+    return float(_most_negative(flight)[1])
+
+
+def _most_negative(flight: Flight) -> tuple[float, int]:
+    read = [
+        (1e-3 * point.potential_mv, k)
+        for k, point in enumerate(contact_points(flight), start=1)
+        if point.valid and point.potential_mv is not None
+    ]
+    if not read:
+        raise NotMeasured("no reading is valid")
+    return min(read)
+
+
 def active_points_count(flight: Flight) -> float:
     """Number of points with the combined verdict active."""
     return float(sum(point.corrosion == "active" for point in contact_points(flight)))

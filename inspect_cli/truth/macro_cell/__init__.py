@@ -1,0 +1,15 @@
+"""The potential field of corroding reinforcement, solved in the concrete under a surface.
+
+In the concrete, with the resistivity ρ and the potential φ against the grounded steel,
+
+    ∇·(ρ⁻¹ ∇φ) = 0,      insulated outer faces,      reading E = −φ at the surface
+
+so that E obeys the same equation. At the steel, E is its potential against the concrete before it,
+and the net anodic current density i(E) leaves it into the concrete (``steel``). The mat of bars is
+a sheet at the depth of the cover, joined to the concrete through the constriction of the current
+around its bars (``mat``). Surface coordinates and their metric: ``patch``; finite volumes:
+``concrete``; Newton's method: ``newton``; from the mission's words to the field: ``solution``.
+
+Source of the formulation: Kranc & Sagüés, "Detailed modeling of corrosion macrocells on steel
+reinforcing in concrete", Corrosion Science 43 (2001) 1355–1372.
+"""
