@@ -238,7 +238,7 @@ METRICS: dict[str, MetricSpec] = {
     "half_cell.potential_min_point": MetricSpec(
         "1",
         half_cell.potential_min_point,
-        "which point has the least valid potential, counted from 1 in the plan's order",
+        "point k, from 1 in the plan's order, with the least valid potential; none if passive",
         READ,
     ),
     "half_cell.active_points_count": MetricSpec(

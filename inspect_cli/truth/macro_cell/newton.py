@@ -29,7 +29,10 @@ MOST_HALVINGS: Final = 12
 POTENTIAL_TOLERANCE_V: Final = 1e-8
 CHARGE_TOLERANCE: Final = 1e-9
 """Unbalanced current, summed over the nodes, against the current of the anodes."""
-LINEAR_TOLERANCE: Final = 1e-4
+EPSILON: Final = float(np.finfo(np.float64).eps)
+ROUNDINGS: Final = 16
+"""Of each node's largest currents, in its balance."""
+LINEAR_TOLERANCE: Final = 1e-2
 """Of each linear step: it sets how many steps there are, not how good the solution is."""
 
 
@@ -96,9 +99,8 @@ def solve_potentials(
             (low, high), concrete, joint, steel, load, (E, bars), (dE, dbars), balance
         )
         moved = float(np.abs(E - before).max())
-        if moved < POTENTIAL_TOLERANCE_V and _unbalanced(balance) <= CHARGE_TOLERANCE * max(
-            _through(joint, steel, bars), _floor(joint, steel)
-        ):
+        wanted = CHARGE_TOLERANCE * _through(joint, steel, bars) + _rounding(concrete, E)
+        if moved < POTENTIAL_TOLERANCE_V and _unbalanced(balance) <= wanted:
             return Potentials(E, bars, step)
     raise InputError(
         f"the potentials of the macro cell did not settle in {MOST_STEPS} steps",
@@ -128,9 +130,9 @@ def _through(joint: Joint, steel: Polarisation, bars: Matrix) -> float:
     return 0.5 * float(np.sum(np.abs(joint.steel_area * steel.current(bars)[0])))
 
 
-def _floor(joint: Joint, steel: Polarisation) -> float:
-    """The current that a millivolt drives through all of the steel: none flows in uniform steel."""
-    return 1e-3 * float(np.sum(joint.steel_area * steel.current(steel.rest())[1]))
+def _rounding(concrete: Concrete, E: Matrix) -> float:
+    """What sums of currents cannot be told from zero, A: uniform steel sends no current at all."""
+    return ROUNDINGS * EPSILON * float(np.sum(concrete.diagonal * np.abs(E)))
 
 
 def _step(
