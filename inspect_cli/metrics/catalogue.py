@@ -228,6 +228,19 @@ METRICS: dict[str, MetricSpec] = {
         READ_TRULY,
         GREATEST,
     ),
+    "half_cell.potential_min_v": MetricSpec(
+        "V",
+        half_cell.potential_min,
+        "least potential of the valid readings",
+        READ,
+        LEAST,
+    ),
+    "half_cell.potential_min_point": MetricSpec(
+        "1",
+        half_cell.potential_min_point,
+        "point k, from 1 in the plan's order, with the least valid potential; none if passive",
+        READ,
+    ),
     "half_cell.active_points_count": MetricSpec(
         "1",
         half_cell.active_points_count,

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from inspect_cli.assessment.classes import astm_class
 from inspect_cli.metrics.flight import Flight, NotMeasured
 from inspect_cli.metrics.points import point_results
 from inspect_cli.records import Reading
@@ -81,6 +82,34 @@ def _comparable(flight: Flight) -> list[PointResult]:
     if not points:
         raise NotMeasured("the log knows no specimen where readings were taken")
     return points
+
+
+def potential_min(flight: Flight) -> float:
+    """Least potential, V, of the valid readings."""
+    return _most_negative(flight)[0]
+
+
+def potential_min_point(flight: Flight) -> float:
+    """Which of the points, k = 1, 2, … in the plan's order, has the least valid potential.
+
+    Raises NotMeasured where that is in the passive class: it would be noise that tells.
+    """
+    potential, point = _most_negative(flight)
+    if astm_class(potential) == "passive":
+        raise NotMeasured("every valid potential is in the passive class: none stands out")
+    return float(point)
+
+
+def _most_negative(flight: Flight) -> tuple[float, int]:
+    """(V, k) of the valid reading with the least potential."""
+    read = [
+        (1e-3 * point.potential_mv, k)
+        for k, point in enumerate(contact_points(flight), start=1)
+        if point.valid and point.potential_mv is not None
+    ]
+    if not read:
+        raise NotMeasured("no reading is valid")
+    return min(read)
 
 
 def active_points_count(flight: Flight) -> float:

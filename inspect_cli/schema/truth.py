@@ -13,6 +13,7 @@ from pydantic import Field, model_validator
 from inspect_cli.schema.base import Count, Name, NonNegative, Positive, Strict, Triple
 from inspect_cli.schema.disturbances import Disturbance, refuse_impossible
 from inspect_cli.schema.geometry import Displacement, TrueShape
+from inspect_cli.schema.macro_cell import MacroCellSpecimen, refuse_unfit
 
 
 class AnalyticSpot(Strict):
@@ -49,7 +50,9 @@ class GridSpecimen(Strict):
     """(u, v) of the grid's middle on the surface; columns run along u, rows along −v."""
 
 
-Specimen = Annotated[AnalyticSpecimen | GridSpecimen, Field(discriminator="model")]
+Specimen = Annotated[
+    AnalyticSpecimen | GridSpecimen | MacroCellSpecimen, Field(discriminator="model")
+]
 
 
 class ForceSensorModel(Strict):
@@ -80,6 +83,12 @@ class TrueSurface(Strict):
     specimen: Specimen | None = None
     force_sensor: ForceSensorModel | None = None
     """What measures, in the wall, the force of the tool on this surface."""
+
+    @model_validator(mode="after")
+    def _specimen_fits(self) -> TrueSurface:
+        if isinstance(self.specimen, MacroCellSpecimen) and self.geometry is not None:
+            refuse_unfit(self.specimen, self.geometry)
+        return self
 
 
 class TruePlatform(Strict):

@@ -56,6 +56,10 @@ UNITS: dict[str, Unit] = {
     "ohm": Unit("resistance", "ohms"),
     "ohm_m": Unit("resistivity", "Ω·m"),
     "kohm_cm": Unit("resistivity", "kΩ·cm", 10.0),
+    "apm2": Unit("current density", "A/m²"),
+    "uapcm2": Unit("current density", "µA/cm²", 1e-2),
+    "vpdec": Unit("Tafel slope", "V/decade"),
+    "mvpdec": Unit("Tafel slope", "mV/decade", 1e-3),
 }
 
 _QUANTITY = re.compile(r"\s*([-+]?[0-9.]+(?:[eE][-+]?[0-9]+)?)\s*([A-Za-zµ°/²]+[0-9]?)\s*")

@@ -10,11 +10,14 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
+from inspect_cli.errors import InputError
 from inspect_cli.schema.geometry import MeshShape, TrueShape
+from inspect_cli.schema.macro_cell import MacroCellSpecimen, refuse_unfit
 from inspect_cli.schema.plan import PlannedSurface
 from inspect_cli.schema.primitives import displaced, primitives_of
-from inspect_cli.schema.truth import ForceSensorModel, TrueSurface, TruthModel
+from inspect_cli.schema.truth import ForceSensorModel, Specimen, TrueSurface, TruthModel
 from inspect_cli.truth.heights import MeshRelief, mesh_relief
+from inspect_cli.truth.macro_cell.patch import patch_of
 from inspect_cli.truth.solids import Solids, joined_reliefs
 from inspect_cli.truth.specimen import SpecimenField, load_specimen
 
@@ -52,7 +55,7 @@ def true_structure(
         relief = mesh_relief(shape, entry.moved, root) if isinstance(shape, MeshShape) else None
         if not isinstance(shape, MeshShape):
             shape = displaced(shape, entry.moved)
-        specimen = load_specimen(entry.specimen, root) if entry.specimen else None
+        specimen = _specimen(name, entry.specimen, shape, relief, root)
         sensor = entry.force_sensor
         surfaces.append(SurfaceTruth(name, shape, entry.friction, specimen, relief, sensor))
     return structure_of(surfaces)
@@ -66,6 +69,22 @@ def structure_of(surfaces: Sequence[SurfaceTruth]) -> StructureTruth:
     rows, nodes = joined_reliefs([(relief.row, relief.nodes) for _, relief in reliefs])
     ordered = (*primitives, *(s for s, _ in reliefs))
     return StructureTruth(ordered, Solids(primitives_of(shapes), rows, nodes))
+
+
+def _specimen(
+    name: str, model: Specimen | None, shape: TrueShape, relief: MeshRelief | None, root: Path
+) -> SpecimenField | None:
+    """The field under a surface. Raises InputError where it does not fit the surface."""
+    if model is None:
+        return None
+    extent = 2.0 * relief.row["half_size"][0] if relief is not None else (0.0, 0.0)
+    patch = patch_of(shape, (float(extent[0]), float(extent[1])))
+    if isinstance(model, MacroCellSpecimen):
+        try:
+            refuse_unfit(model, shape, patch.size_m)
+        except ValueError as error:
+            raise InputError(f"truth.structure.{name}.specimen: {error}") from error
+    return load_specimen(model, root, patch)
 
 
 def _there(

@@ -12,25 +12,49 @@ Grid: bilinear between nodes, NaN outside. Node (row, column) lies at
     u = u₀ + (column − (columns − 1)/2) pitch,      v = v₀ − (row − (rows − 1)/2) pitch
 
 so that a table looks as its file does to somebody in front of the wall.
+
+Macro cell: solved for in the concrete (``truth.macro_cell``); a cubic spline through the solution's
+nodes, bilinear between points of a grid four times as fine, NaN outside of the modelled concrete.
+
+A field also tells where the reinforcement is truly active. A macro cell knows its sites; neither an
+analytic field nor a measured grid knows the steel, so there the combined rule
+(``assessment.classes``) decides on the true values.
 """
 
 from __future__ import annotations
 
+import json
+import math
+from dataclasses import asdict
 from pathlib import Path
 from typing import Final, Protocol
 
 import numpy as np
+from scipy.interpolate import RectBivariateSpline
 
+from inspect_cli.assessment.classes import combined_verdict
 from inspect_cli.compiled import kernel
 from inspect_cli.errors import InputError
+from inspect_cli.schema.macro_cell import MacroCellSpecimen
 from inspect_cli.schema.truth import AnalyticSpecimen, GridSpecimen, Specimen
 from inspect_cli.spatial.arrays import Matrix, Points, Vector
 from inspect_cli.surveys.grids import read_numbers
+from inspect_cli.truth.cache import kept
+from inspect_cli.truth.macro_cell.patch import Patch
+from inspect_cli.truth.macro_cell.solution import (
+    VERSION,
+    resistivity_at,
+    surface_nodes,
+    surface_reading,
+)
 
 MV_TO_V: Final = 1e-3
 KOHM_CM_TO_OHM_M: Final = 10.0
 EDGE: Final = 1e-9
 """In pitches: a point so little outside the grid is on its edge."""
+FINER: Final = 4
+"""Cells in which each cell of a macro cell's solution is divided: bilinear interpolation between
+the solution's own nodes would cut the tip of a minimum by some millivolts."""
 
 
 class SpecimenField(Protocol):
@@ -38,6 +62,10 @@ class SpecimenField(Protocol):
 
     def at(self, u: float, v: float) -> tuple[float, float]:
         """(V, Ω·m) at (u, v) in m; NaN where the specimen has no values."""
+        ...
+
+    def active(self, u: float, v: float) -> bool:
+        """Whether the reinforcement under (u, v), m, truly corrodes; False without values."""
         ...
 
 
@@ -92,6 +120,10 @@ class SpotField:
         result: tuple[float, float] = spots_at(u, v, *self._sound, self._spots)
         return result
 
+    def active(self, u: float, v: float) -> bool:
+        """Whether the combined rule says active of the field at (u, v) in m."""
+        return _says_active(self, u, v)
+
 
 class GridField:
     """Values on a grid. ``values`` (rows, columns, 2) in V and Ω·m; at least 2 × 2 nodes."""
@@ -110,16 +142,66 @@ class GridField:
         result: tuple[float, float] = bilinear(x, y, self._values)
         return result
 
+    def active(self, u: float, v: float) -> bool:
+        """Whether the combined rule says active of the values at (u, v) in m."""
+        return _says_active(self, u, v)
 
-def load_specimen(model: Specimen, root: Path) -> SpecimenField:
+
+class MacroCellField:
+    """The solved field of a macro cell under a surface."""
+
+    def __init__(self, model: MacroCellSpecimen, patch: Patch) -> None:
+        u, v = surface_nodes(model, patch)
+        inputs = json.dumps([VERSION, np.__version__, asdict(patch), model.model_dump(mode="json")])
+        reading = kept("macro_cell", inputs, lambda: surface_reading(model, patch))
+        fine_u, fine_v = surface_nodes(model, patch, FINER)
+        potential = RectBivariateSpline(v, u, reading)(fine_v, fine_u)
+        resistivity = resistivity_at(model, fine_u, fine_v)
+        self._values = np.dstack([potential, resistivity])
+        self._origin = (float(fine_u[0]), float(fine_v[0]))
+        self._pitch = (float(fine_u[1] - fine_u[0]), float(fine_v[1] - fine_v[0]))
+        self._sites = model.sites
+
+    def at(self, u: float, v: float) -> tuple[float, float]:
+        """(V, Ω·m) at (u, v) in m; NaN outside of the modelled concrete."""
+        x = (u - self._origin[0]) / self._pitch[0]
+        y = (v - self._origin[1]) / self._pitch[1]
+        result: tuple[float, float] = bilinear(x, y, self._values)
+        return result
+
+    def active(self, u: float, v: float) -> bool:
+        """Whether (u, v), m, lies over an active site, within the modelled concrete."""
+        if math.isnan(self.at(u, v)[0]):
+            return False
+        return any(
+            math.hypot(u - site.at_m[0], v - site.at_m[1]) <= site.radius_m for site in self._sites
+        )
+
+
+def _says_active(field: SpecimenField, u: float, v: float) -> bool:
+    potential, resistivity = field.at(u, v)
+    if math.isnan(potential):
+        return False
+    return combined_verdict(potential, resistivity) == "active"
+
+
+def load_specimen(model: Specimen, root: Path, patch: Patch | None = None) -> SpecimenField:
     """The field that a truth file describes; its files are relative to ``root``.
 
+    ``patch`` is the surface that a macro cell lies under; without it a plane of the specimen's own
+    size.
+
     Raises InputError, naming file, line and cell, for tables that cannot be read, that hold
-    anything but finite numbers, or that differ in size.
+    anything but finite numbers, or that differ in size, and for a macro cell that has no solution.
     """
     if isinstance(model, AnalyticSpecimen):
         return SpotField(model)
-    return _load_grid(model, root)
+    if isinstance(model, GridSpecimen):
+        return _load_grid(model, root)
+    patch = patch or (Patch(model.size_m) if model.size_m else None)
+    if patch is None:
+        raise InputError("a macro cell under an unknown surface has to state its size_m")
+    return MacroCellField(model, patch)
 
 
 def _load_grid(model: GridSpecimen, root: Path) -> GridField:

@@ -27,7 +27,7 @@ SUFFIXES = {
     "m/N": ("_per_newton",),
     "rad/(N·m)": ("_per_nm",),
     "1": (
-        *("_growth", "_over_hovering"),
+        *("_growth", "_min_point", "_over_hovering"),
         *("_cv", "_count", "_gaps", ".gaps", "_mask", "_mismatches", "_points", "_rel_max"),
         *("_share", "_total", "_valid", "_over_attitude", "_over_flown", "_over_z"),
     ),

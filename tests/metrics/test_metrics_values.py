@@ -94,6 +94,8 @@ EXPECTED = {
     "half_cell.false_valid_points": 0.0,
     "half_cell.potential_error_max_v": 0.002,
     "half_cell.resistance_error_rel_max": 0.01,
+    "half_cell.potential_min_v": -0.42 - 0.002,
+    "half_cell.potential_min_point": 2.0,
     "half_cell.active_points_count": 2.0,
     "half_cell.active_mask": 6.0,
     "half_cell.map_mismatches": 0.0,
@@ -284,6 +286,20 @@ def test_wrong_verdict_is_a_mismatch(flight: SyntheticFlight) -> None:
     assert value(flight, "half_cell.map_mismatches") == 1
     assert value(flight, "half_cell.active_mask") == 2
     assert value(flight, "half_cell.potential_error_max_v") == pytest.approx(0.12)
+
+
+def test_the_minimum_is_of_valid_readings_and_stands_out(flight: SyntheticFlight) -> None:
+    reading = flight.rows(Reading)
+    reading["potential"][7], reading["valid"][7] = -0.9, 0.0
+    assert value(flight, "half_cell.potential_min_point") == 2
+    reading["valid"][7] = 1.0
+    assert value(flight, "half_cell.potential_min_point") == 8
+    assert value(flight, "half_cell.potential_min_v") == pytest.approx(-0.9)
+    reading["potential"] = -0.12
+    assert "none stands out" in why(flight, "half_cell.potential_min_point")
+    assert value(flight, "half_cell.potential_min_v") == pytest.approx(-0.12)
+    reading["valid"] = 0.0
+    assert "no reading is valid" in why(flight, "half_cell.potential_min_v")
 
 
 def test_a_point_without_any_verdict_is_a_mismatch(flight: SyntheticFlight) -> None:

@@ -8,6 +8,7 @@ import pytest
 
 from inspect_cli.errors import SchemaError
 from inspect_cli.schema.loading import load_mission
+from inspect_cli.schema.truth import AnalyticSpecimen
 
 
 def refusal(file: Path) -> str:
@@ -39,6 +40,19 @@ def test_mappings_merge_sequences_are_replaced_and_null_removes(campaign: Path) 
     assert variant.truth.structure["wall"].friction == 0.9
     assert variant.truth.structure["wall"].specimen is None
     assert variant.truth.platform.mass_factor == 1.1
+
+
+def test_a_specimen_of_another_model_replaces_the_inherited_one(campaign: Path) -> None:
+    file = write(
+        campaign,
+        "variant.yaml",
+        "extends: m.yaml\n"
+        "name: variant\n"
+        "truth: {structure: {wall: {specimen: {model: analytic, potential_v: -0.3}}}}\n",
+    )
+    specimen = load_mission(file).truth.structure["wall"].specimen
+    assert specimen == AnalyticSpecimen(model="analytic", potential_v=-0.3)
+    assert load_mission(file).truth.structure["wall"].friction == 0.4
 
 
 def test_an_inherited_path_leads_to_the_same_file(campaign: Path) -> None:
