@@ -12,15 +12,21 @@ Grid: bilinear between nodes, NaN outside. Node (row, column) lies at
     u = u₀ + (column − (columns − 1)/2) pitch,      v = v₀ − (row − (rows − 1)/2) pitch
 
 so that a table looks as its file does to somebody in front of the wall.
+
+A field also tells where the reinforcement is truly active: where the combined rule
+(``assessment.classes``) says so of the true values, since neither an analytic field nor a measured
+grid knows the steel itself.
 """
 
 from __future__ import annotations
 
+import math
 from pathlib import Path
 from typing import Final, Protocol
 
 import numpy as np
 
+from inspect_cli.assessment.classes import combined_verdict
 from inspect_cli.compiled import kernel
 from inspect_cli.errors import InputError
 from inspect_cli.schema.truth import AnalyticSpecimen, GridSpecimen, Specimen
@@ -38,6 +44,10 @@ class SpecimenField(Protocol):
 
     def at(self, u: float, v: float) -> tuple[float, float]:
         """(V, Ω·m) at (u, v) in m; NaN where the specimen has no values."""
+        ...
+
+    def active(self, u: float, v: float) -> bool:
+        """Whether the reinforcement under (u, v), m, truly corrodes; False without values."""
         ...
 
 
@@ -92,6 +102,10 @@ class SpotField:
         result: tuple[float, float] = spots_at(u, v, *self._sound, self._spots)
         return result
 
+    def active(self, u: float, v: float) -> bool:
+        """Whether the combined rule says active of the field at (u, v) in m."""
+        return _says_active(self, u, v)
+
 
 class GridField:
     """Values on a grid. ``values`` (rows, columns, 2) in V and Ω·m; at least 2 × 2 nodes."""
@@ -109,6 +123,17 @@ class GridField:
         y = (self._top - v) / self._pitch
         result: tuple[float, float] = bilinear(x, y, self._values)
         return result
+
+    def active(self, u: float, v: float) -> bool:
+        """Whether the combined rule says active of the values at (u, v) in m."""
+        return _says_active(self, u, v)
+
+
+def _says_active(field: SpecimenField, u: float, v: float) -> bool:
+    potential, resistivity = field.at(u, v)
+    if math.isnan(potential):
+        return False
+    return combined_verdict(potential, resistivity) == "active"
 
 
 def load_specimen(model: Specimen, root: Path) -> SpecimenField:

@@ -71,6 +71,23 @@ def test_analytic_field_follows_its_formula(tmp_path: Path) -> None:
     assert field.at(2.0, 2.0) == pytest.approx((-0.1, 200.0))
 
 
+def test_the_rule_says_where_an_analytic_field_is_active(tmp_path: Path) -> None:
+    spot = AnalyticSpot(at_m=(0.1, -0.2), depth_v=0.4, radius_m=0.05, resistivity_factor=0.1)
+    dry = AnalyticSpot(at_m=(-2.0, 0.0), depth_v=0.4, radius_m=0.05)
+    field = load_specimen(AnalyticSpecimen(model="analytic", spots=(spot, dry)), tmp_path)
+    assert field.active(0.1, -0.2)
+    assert not field.active(0.1, 0.2)
+    assert field.at(-2.0, 0.0)[0] < -0.35
+    assert not field.active(-2.0, 0.0), "too resistive for the rule to say active"
+
+
+def test_the_rule_says_where_a_grid_is_active(tmp_path: Path) -> None:
+    field = load_specimen(grid(tmp_path, "-100,-500\n-100,-500\n", "9 9\n9 9\n"), tmp_path)
+    assert field.active(1.05, 2.0)
+    assert not field.active(0.95, 2.0)
+    assert not field.active(1.2, 2.0), "there are no values"
+
+
 def test_analytic_field_without_spots(tmp_path: Path) -> None:
     assert load_specimen(AnalyticSpecimen(model="analytic"), tmp_path).at(0.3, 0.4) == (-0.1, 200.0)
 
