@@ -11,7 +11,7 @@ from inspect_cli.commands.runs import LOG_NAME, SORTIES, log_of, write_model
 from inspect_cli.errors import InputError, LogError
 from inspect_cli.log.reader import RunLog, read_log
 from inspect_cli.metrics.evaluate import evaluate
-from inspect_cli.metrics.survey import joined_result
+from inspect_cli.metrics.survey import joined_result, scorer
 from inspect_cli.reporting.report import write_report
 from inspect_cli.reporting.survey import write_survey_report
 from inspect_cli.schema.coverage import CoveragePlan, Sortie
@@ -71,7 +71,9 @@ def report_survey(run: Path, survey: CoveragePlan, folder: Path) -> tuple[Result
         raise InputError(f"{run} holds no flown sortie", hint="fly it first: inspect fly MISSION")
     flown = sum(len(sortie.plan.targets) for sortie in survey.sorties[: len(results)])
     unvisited = survey.joined().targets[flown:]
-    joined = joined_result(results, unvisited, first.mission().acceptance, _seed(run))
+    mission = first.mission()
+    score_all = scorer(mission.tasks[0].on, first.true_rasters(), mission)
+    joined = joined_result(results, unvisited, mission.acceptance, _seed(run), score_all)
     write_model(folder / "metrics.json", joined)
     return joined, write_survey_report(first, joined, results, survey, folder)
 

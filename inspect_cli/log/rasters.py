@@ -90,7 +90,7 @@ def encoded(rasters: Sequence[TrueRaster]) -> bytes:
         members[f"{name}/active"] = raster.active
         members[f"{name}/closing"] = np.array([raster.radius_m, raster.turn_m])
     data = io.BytesIO()
-    np.savez_compressed(data, allow_pickle=False, **members)  # type: ignore[arg-type]
+    np.savez_compressed(data, allow_pickle=False, **members)
     return data.getvalue()
 
 

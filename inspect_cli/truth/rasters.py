@@ -79,7 +79,7 @@ class Beneath:
         u_m, v_m = _middles(half_u, half_v, share * most)
         places = np.column_stack([np.tile(u_m, len(v_m)), np.repeat(v_m, len(u_m))])
         shape = (len(v_m), len(u_m))
-        potential, resistivity, active = (field.reshape(shape) for field in self.at(places))
+        potential, resistivity, active = self.at(places)
         kind, radius_m = int(self.prim["kind"][0]), float(self.prim["radius"][0])
         turn_m = 2.0 * np.pi * radius_m
         closed = kind != PLANE and 2.0 * half_u >= turn_m - 1e-9
@@ -87,17 +87,15 @@ class Beneath:
             self.surface,
             u_m,
             v_m,
-            potential,
-            resistivity,
-            active,
+            potential.reshape(shape),
+            resistivity.reshape(shape),
+            active.reshape(shape),
             radius_m if kind == SPHERE else 0.0,
             turn_m if closed else 0.0,
         )
 
 
-def all_beneath(
-    structure: StructureTruth, believed: Sequence[PlannedSurface]
-) -> Iterator[Beneath]:
+def all_beneath(structure: StructureTruth, believed: Sequence[PlannedSurface]) -> Iterator[Beneath]:
     """The believed surfaces beneath which there is a specimen, in the belief's order."""
     true = {surface.name: k for k, surface in enumerate(structure.surfaces)}
     for surface in believed:
