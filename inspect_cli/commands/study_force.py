@@ -116,5 +116,5 @@ FORCE = Study(
             (WallForce, State, Reference),
         )
     },
-    figure=force_figure,
+    figures=(force_figure,),
 )

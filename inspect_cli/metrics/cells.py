@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 from scipy.spatial import KDTree
 
 from inspect_cli.log.rasters import TrueRaster
-from inspect_cli.spatial.arrays import Points, Vector
+from inspect_cli.spatial.arrays import Mask, Points, Vector
 
 LEAST_SAMPLES, MOST_SAMPLES = 10, 60
 """Along the edge of a square."""
@@ -55,6 +55,13 @@ def cells_around(uv_m: Points, pitch_m: float, raster: TrueRaster) -> Cells:
     if _overlap(uv_m, pitch_m, raster):
         kept &= _nearest_square(samples, uv_m, pitch_m, raster) == owner
     return Cells(samples[kept], owner[kept], (pitch_m / n) ** 2)
+
+
+def in_squares(places_m: Points, uv_m: Points, pitch_m: float, raster: TrueRaster) -> Mask:
+    """Which places (m, 2) lie in the square of one of the points (n, 2), n at least one."""
+    tree = KDTree(_unrolled(uv_m, raster))
+    apart = tree.query(_unrolled(places_m, raster), p=np.inf)[0]
+    return np.asarray(apart <= 0.5 * pitch_m * (1.0 + 1e-9))
 
 
 def nearest_to(region: Cells, uv_m: Points, raster: TrueRaster) -> Cells:
