@@ -91,7 +91,12 @@ def cost_figure(study: StudyResult) -> Figure:
     )
     layout: Json = {
         "hovermode": "closest",
-        "xaxis": {"type": "log", "title": {"text": "energy planned (Wh)"}},
+        "xaxis": {
+            "type": "log",
+            "tickvals": ends,
+            "ticktext": [f"{end:.3g}" for end in ends],
+            "title": {"text": "energy planned (Wh)"},
+        },
         "yaxis": {"rangemode": "tozero", "title": {"text": "share found"}},
     }
     return Figure(

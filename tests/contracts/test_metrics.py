@@ -29,17 +29,8 @@ SUFFIXES = {
     "rad/(N·m)": ("_per_nm",),
     "1": (
         *("_growth", "_over_hovering"),
-        *(
-            "_cv",
-            "_count",
-            "_found",
-            "_gaps",
-            ".gaps",
-            "_mask",
-            "_mismatches",
-            "_points",
-            "_rel_max",
-        ),
+        *("_cv", "_count", "_gaps", ".gaps", "_mask", "_mismatches", "_points", "_rel_max"),
+        "_found",
         *("_share", "_total", "_valid", "_over_attitude", "_over_flown", "_over_z"),
     ),
 }
