@@ -224,7 +224,7 @@ def regress(
 
 @app.command()
 def study(
-    name: Annotated[str, typer.Argument(metavar="NAME", help="Which study: force.")],
+    name: Annotated[str, typer.Argument(metavar="NAME", help="Which study: force, pitch.")],
     mission: Mission,
     gains: Annotated[
         str | None, typer.Option(metavar="K,K,…", help="force: observer gains K_I, 1/s.")
@@ -232,6 +232,12 @@ def study(
     speeds: Annotated[
         str | None, typer.Option(metavar="V,V,…", help="force: speeds of the approach, m/s.")
     ] = None,
+    pitch: Annotated[
+        str | None, typer.Option(metavar="P,P,…", help="pitch: pitches of the grid, m.")
+    ] = None,
+    fly: Annotated[
+        bool, typer.Option("--fly", help="pitch: fly each pitch once, beside the samples.")
+    ] = False,
     out: Out = None,
     seed: Annotated[
         int | None, typer.Option(min=0, help="Of the noise; by default the mission's first.")
@@ -240,11 +246,12 @@ def study(
     language: Language = "en",
     as_json: Json = False,
 ) -> int:
-    """Fly a mission with varied numbers; show what they do to its metrics."""
+    """Fly or sample a mission with varied numbers; show what they do to its metrics."""
     from inspect_cli import terminal
     from inspect_cli.commands.study import study as command
 
-    asked = {k: v for k, v in {"gains": gains, "speeds": speeds}.items() if v is not None}
+    options = {"gains": gains, "speeds": speeds, "pitch": pitch}
+    asked = {k: v for k, v in options.items() if v is not None}
     with _stdout_kept_clean():
         terminal.announce_compilation(shown=not as_json)
         with terminal.regression_progress(shown=not as_json) as progress:
@@ -256,6 +263,7 @@ def study(
                 seed=seed,
                 jobs=jobs,
                 language=language,
+                fly_sampled=fly,
                 progress=progress,
             )
     if as_json:

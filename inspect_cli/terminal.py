@@ -31,7 +31,7 @@ if TYPE_CHECKING:
     from inspect_cli.schema.coverage import CoveragePlan
     from inspect_cli.schema.plan import Plan
     from inspect_cli.schema.result import Check, PointResult, Result
-    from inspect_cli.schema.study import StudyResult
+    from inspect_cli.schema.study import StudyResult, StudyVariant
 
 GOOD, BAD, UNSURE = "green", "bold red", "yellow"
 STYLES = {
@@ -50,6 +50,8 @@ STYLES = {
     "warning": UNSURE,
 }
 ANY_WIDTH = 10_000
+WHOLE = 100.0
+"""From here on three digits are a whole number."""
 STILL_MPS = 0.2
 """A vehicle that has landed is slower than this."""
 
@@ -237,15 +239,23 @@ def print_study(study: StudyResult, page: Path) -> None:
     table = _table(study.title, "variant", *quantities, *(h.replace(", ", "\n") for h in heads))
     for variant in study.variants:
         values = (f"{variant.values[q.name]:g}" for q in study.quantities)
-        numbers = (_number(variant.value(c.metric), ".3g") for c in study.columns)
-        table.add_row(variant.name, *values, *numbers)
+        table.add_row(variant.name, *values, *(_mean(variant, c.metric) for c in study.columns))
     if any(c.published is not None for c in study.columns):
         blank = ("" for _ in study.quantities)
         table.add_row("published", *blank, *(_number(c.published, ".3g") for c in study.columns))
     out.print(table)
     for reason in study.shortfalls:
         out.print(Text.assemble(("not as expected: ", BAD), reason), soft_wrap=True)
+    for finding in study.findings:
+        out.print(finding, soft_wrap=True)
     out.print(f"study: {_near(page)}", soft_wrap=True)
+
+
+def _mean(variant: StudyVariant, metric: str) -> str:
+    """A number of a variant, with its standard error if it is a mean."""
+    value, error = variant.value(metric), variant.standard_errors.get(metric)
+    shown = _number(value, ".3g" if abs(value or 0.0) < WHOLE else ".0f")
+    return shown if error is None else f"{shown}\n±{error:.2g}"
 
 
 def print_diagnosis(diagnosis: Diagnosis) -> None:

@@ -10,6 +10,7 @@ from pathlib import Path
 
 from inspect_cli.commands.runs import LOG_NAME, write_json, write_model
 from inspect_cli.log import names
+from inspect_cli.log.rasters import encoded
 from inspect_cli.log.reader import read_log
 from inspect_cli.log.writer import LogWriter
 from inspect_cli.metrics.evaluate import evaluate
@@ -20,6 +21,7 @@ from inspect_cli.schema.result import Result
 from inspect_cli.schema.truth import TruthModel
 from inspect_cli.simulation.loop import Ending, Flight
 from inspect_cli.truth.geometry import StructureTruth
+from inspect_cli.truth.rasters import true_rasters
 from inspect_cli.vehicles.kinds import Vehicle
 
 VERSIONED = ("inspect-cli", "mujoco", "numpy", "numba", "mcap")
@@ -81,6 +83,8 @@ def _fly(
     lengths = vehicle.capabilities.lengths
     with LogWriter(folder / LOG_NAME, _records(loaded.truth), lengths) as log:
         _attach(log, loaded, plan, seed)
+        if rasters := true_rasters(structure, plan.surfaces):
+            log.attach(names.SPECIMEN, "application/zip", encoded(rasters))
         log.scene(0.0, plan)
         _note_reliefs(log, structure)
         estimation = loaded.mission.estimation

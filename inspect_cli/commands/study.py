@@ -1,13 +1,16 @@
-"""``inspect study``: one mission flown with varied numbers, and what that does to its metrics.
+"""``inspect study``: one mission with varied numbers, and what that does to its metrics.
 
 <out>/study-<name>/study.json  study.html
-<out>/study-<name>/<variant>/      an ordinary run of each variant
+<out>/study-<name>/<variant>/      an ordinary run of each variant that is flown
+
+Every variant is planned before anything else. A study without a sampler then flies them; one with
+a sampler computes its numbers from the plans, and flies only when it is asked to.
 """
 
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Protocol
 
@@ -17,8 +20,9 @@ from inspect_cli.commands.fly import FlyOutcome, fly_loaded
 from inspect_cli.commands.plan import plan_loaded, vehicle_of
 from inspect_cli.commands.runs import log_of, write_model
 from inspect_cli.commands.study_force import FORCE
-from inspect_cli.commands.sweeps import Study, Variant, numbers_of, variants
-from inspect_cli.errors import EXIT_CHECK_FAILED, EXIT_GOOD, InputError
+from inspect_cli.commands.study_pitch import PITCH
+from inspect_cli.commands.sweeps import Sampled, Study, Variant, numbers_of, variants
+from inspect_cli.errors import EXIT_CHECK_FAILED, EXIT_GOOD, InfeasibleError, InputError
 from inspect_cli.files import write_whole
 from inspect_cli.log.reader import read_log
 from inspect_cli.metrics.evaluate import measure
@@ -34,9 +38,9 @@ from inspect_cli.schema.explain import suggest
 from inspect_cli.schema.loading import Loaded, load_mission
 from inspect_cli.schema.plan import Plan
 from inspect_cli.schema.result import Metric
-from inspect_cli.schema.study import StudyResult, StudyVariant
+from inspect_cli.schema.study import StudyColumn, StudyResult, StudyVariant
 
-STUDIES: dict[str, Study] = {"force": FORCE}
+STUDIES: dict[str, Study] = {"force": FORCE, "pitch": PITCH}
 """What ``inspect study`` knows, by name."""
 
 
@@ -73,10 +77,11 @@ def study(
     seed: int | None = None,
     jobs: int = 1,
     language: LanguageCode = "en",
+    fly_sampled: bool = False,
     progress: Progress | None = None,
     fly: FlyLoaded = fly_loaded,
 ) -> StudyOutcome:
-    """Fly the variants of a mission and write ``study.json`` and ``study.html``.
+    """Fly or sample the variants of a mission; write ``study.json`` and ``study.html``.
 
     Args:
         name: one of ``STUDIES``.
@@ -86,6 +91,7 @@ def study(
         seed: of every variant; by default the mission's first.
         jobs: flights at a time.
         language: of the page.
+        fly_sampled: fly each variant of a study that samples, too.
         progress: is told of each flight as it ends.
         fly: flies one variant.
 
@@ -97,12 +103,21 @@ def study(
     if name not in STUDIES:
         raise InputError(f"no study is named '{name}'", hint=suggest(name, list(STUDIES)))
     chosen, loaded = STUDIES[name], load_mission(mission)
+    if fly_sampled and chosen.sampler is None:
+        raise InputError(f"the study '{name}' flies in any case", hint="leave out --fly")
     chosen.refuse(loaded)
     values = {option: numbers_of(option, text) for option, text in (asked or {}).items()}
     varied = variants(name, chosen, loaded, values)
     seed = loaded.mission.seeds[0] if seed is None else seed
     folder = (out or loaded.root / "reports" / loaded.mission.name) / f"study-{name}"
-    ends = _flown(varied, folder, seed, jobs, fly, progress)
+    plans = [_planned(variant) for variant in varied]
+    sampler = chosen.sampler(loaded, seed) if chosen.sampler else None
+    sampled = [sampler(*pair) if sampler else None for pair in zip(varied, plans, strict=True)]
+    ends: list[FlightEnd | None] = [None] * len(varied)
+    columns = chosen.columns
+    if sampler is None or fly_sampled:
+        ends = [*_flown(varied, plans, folder, seed, jobs, fly, progress)]
+        columns += chosen.flown_columns
     result = StudyResult(
         study=name,
         title=chosen.title,
@@ -111,12 +126,17 @@ def study(
         seed=seed,
         expect_status=loaded.mission.expect_status,
         quantities=tuple(factor.quantity(loaded) for factor in chosen.factors),
-        columns=chosen.columns,
-        variants=tuple(_told(chosen, *pair) for pair in zip(varied, ends, strict=True)),
+        columns=columns,
+        variants=tuple(
+            _told(chosen, columns, *each) for each in zip(varied, ends, sampled, strict=True)
+        ),
+        trials=sampler.trials if sampler else 0,
     )
+    result = chosen.concluded(result) if chosen.concluded else result
     write_model(folder / "study.json", result)
     page = folder / "study.html"
-    document = study_document(result, chosen.explained, chosen.figure(result))
+    figures = [figure(result) for figure in chosen.figures]
+    document = study_document(result, chosen.explained, figures)
     write_whole(page, html(document, language_of(language)))
     return StudyOutcome(result, folder, page)
 
@@ -139,14 +159,14 @@ class _Flyer:
 
 def _flown(
     varied: Sequence[Variant],
+    plans: Sequence[Plan | CoveragePlan],
     folder: Path,
     seed: int,
     jobs: int,
     fly: FlyLoaded,
     progress: Progress | None,
 ) -> list[FlightEnd]:
-    """Plan every variant, then fly them, so that a refusal comes before the first flight."""
-    planned = {folder / v.name: (v.loaded, _planned(v)) for v in varied}
+    planned = {folder / v.name: (v.loaded, plan) for v, plan in zip(varied, plans, strict=True)}
     tasks = [FlightTask(v.loaded.mission_file, seed, folder / v.name, v.name) for v in varied]
     done = 0
 
@@ -160,24 +180,37 @@ def _flown(
 
 
 def _planned(variant: Variant) -> Plan | CoveragePlan:
-    return plan_loaded(variant.loaded, vehicle_of(variant.loaded))
+    try:
+        return plan_loaded(variant.loaded, vehicle_of(variant.loaded))
+    except InfeasibleError as error:
+        problems = [replace(p, what=f"{variant.name}: {p.what}") for p in error.problems]
+        raise InfeasibleError(problems) from error
 
 
-def _told(study: Study, variant: Variant, end: FlightEnd) -> StudyVariant:
-    """What the study shows of a variant's flight."""
-    result = end.result
-    missing = Metric(value=None, unit="1", why=end.error or "no such metric")
-    known = {} if result is None else result.metrics | _own(study, end)
+def _told(
+    study: Study,
+    columns: Sequence[StudyColumn],
+    variant: Variant,
+    end: FlightEnd | None,
+    sampled: Sampled | None,
+) -> StudyVariant:
+    """What the study shows of a variant: of its samples, of its flight, or of both."""
+    result = end.result if end else None
+    missing = Metric(value=None, unit="1", why=(end.error if end else "") or "no such metric")
+    known = dict(sampled.metrics) if sampled else {}
+    if end and result is not None:
+        known |= result.metrics | _own(study, end)
     return StudyVariant(
         name=variant.name,
-        folder=variant.name,
+        folder=variant.name if end else None,
         values=variant.values,
-        status="not flown" if result is None else result.status,
-        status_reason=end.error if result is None else result.status_reason,
+        status=result.status if result else "not flown" if end else "sampled",
+        status_reason=result.status_reason if result else end.error if end else "",
         failed_checks=tuple(
             check.metric for check in (result.checks if result else ()) if check.verdict == "fail"
         ),
-        metrics={c.metric: known.get(c.metric, missing) for c in study.columns},
+        metrics={c.metric: known.get(c.metric, missing) for c in columns},
+        standard_errors=dict(sampled.standard_errors) if sampled else {},
     )
 
 

@@ -117,5 +117,5 @@ FORCE = Study(
             (WallForce, State, Reference),
         )
     },
-    figure=force_figure,
+    figures=(force_figure,),
 )

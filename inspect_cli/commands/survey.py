@@ -13,7 +13,8 @@ from pathlib import Path
 from inspect_cli.commands.flying import FlightInterrupted, Progress, fly_into, timing
 from inspect_cli.commands.plan import surveyor_of
 from inspect_cli.commands.runs import write_json, write_model
-from inspect_cli.metrics.survey import joined_result
+from inspect_cli.log.rasters import TrueRaster
+from inspect_cli.metrics.survey import joined_result, scorer
 from inspect_cli.planning.coverage import Surveyor
 from inspect_cli.planning.lattice import Place
 from inspect_cli.planning.refinement import Measured, places_between
@@ -23,6 +24,7 @@ from inspect_cli.schema.result import Result
 from inspect_cli.simulation.loop import Ending
 from inspect_cli.simulation.randomness import sortie_seed
 from inspect_cli.truth.geometry import StructureTruth
+from inspect_cli.truth.rasters import true_rasters
 from inspect_cli.vehicles.kinds import Vehicle
 
 
@@ -46,6 +48,7 @@ def fly_survey(
     results: list[Result] = []
     endings: list[Ending] = []
     survey = plan
+    rasters = true_rasters(structure, plan.sorties[0].plan.surfaces)
     write_model(folder / "plan.json", survey)
     while len(results) < len(survey.sorties):
         sortie = survey.sorties[len(results)]
@@ -61,7 +64,7 @@ def fly_survey(
         endings.append(ending)
         if result.status == "completed":
             survey = refinement.after(survey, results)
-        joined = join(survey, results, loaded, seed)
+        joined = join(survey, results, loaded, seed, rasters)
         write_model(folder / "plan.json", survey)
         write_model(folder / "metrics.json", joined)
         write_json(folder / "timing.json", timing(_together(joined, endings)))
@@ -70,11 +73,22 @@ def fly_survey(
     return joined, _together(joined, endings)
 
 
-def join(survey: CoveragePlan, results: Sequence[Result], loaded: Loaded, seed: int) -> Result:
-    """The sorties' results as one, with the points of those that were not flown."""
+def join(
+    survey: CoveragePlan,
+    results: Sequence[Result],
+    loaded: Loaded,
+    seed: int,
+    rasters: Sequence[TrueRaster] = (),
+) -> Result:
+    """The sorties' results as one, with the points of those that were not flown.
+
+    ``rasters`` are what is truly so, for the points of all sorties to be held against.
+    """
+    mission = loaded.mission
+    score_all = scorer(mission.tasks[0].on, rasters, mission)
     flown = sum(len(sortie.plan.targets) for sortie in survey.sorties[: len(results)])
     unvisited = survey.joined().targets[flown:]
-    return joined_result(results, unvisited, loaded.mission.acceptance, seed)
+    return joined_result(results, unvisited, mission.acceptance, seed, score_all)
 
 
 class Refining:

@@ -12,7 +12,7 @@ from inspect_cli.commands.runs import LOG_NAME, SORTIES, log_of, write_model, wr
 from inspect_cli.errors import InputError, LogError
 from inspect_cli.log.reader import RunLog, read_log
 from inspect_cli.metrics.evaluate import evaluate
-from inspect_cli.metrics.survey import joined_result
+from inspect_cli.metrics.survey import joined_result, scorer
 from inspect_cli.pictures.take import Pictures
 from inspect_cli.reporting.language import LanguageCode
 from inspect_cli.reporting.report import write_report
@@ -85,7 +85,9 @@ def report_survey(
     flown = sum(len(sortie.plan.targets) for sortie in survey.sorties[: len(results)])
     plan = survey.joined()
     unvisited = plan.targets[flown:]
-    joined = joined_result(results, unvisited, first.mission().acceptance, _seed(run))
+    mission = first.mission()
+    score_all = scorer(mission.tasks[0].on, first.true_rasters(), mission)
+    joined = joined_result(results, unvisited, mission.acceptance, _seed(run), score_all)
     write_model(folder / "metrics.json", joined)
     write_readings(folder, joined, plan)
     which = f"sortie 1 of {len(results)}"

@@ -1,5 +1,7 @@
 """What a study is made of: quantities to vary, one at a time, and the missions that come of it.
 
+A study flies its variants, or samples what they would find where it has a ``sampler``.
+
 Missions and platforms are varied in memory: a copy of the loaded model with other numbers, which
 is validated like a file. No file is read or written for it.
 """
@@ -9,7 +11,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
-from typing import TypeVar
+from typing import Protocol, TypeVar
 
 from pydantic import BaseModel, ValidationError
 
@@ -17,7 +19,10 @@ from inspect_cli.errors import InputError
 from inspect_cli.metrics.spec import MetricSpec
 from inspect_cli.reporting.figure import Figure
 from inspect_cli.reporting.text import Text
+from inspect_cli.schema.coverage import CoveragePlan
 from inspect_cli.schema.loading import Loaded
+from inspect_cli.schema.plan import Plan
+from inspect_cli.schema.result import Metric
 from inspect_cli.schema.study import Quantity, StudyColumn, StudyResult
 
 Model = TypeVar("Model", bound=BaseModel)
@@ -62,8 +67,35 @@ class Study:
     refuse: Callable[[Loaded], None]
     """Raises InputError for a mission that cannot be studied so."""
     own: Mapping[str, MetricSpec]
-    """Numbers beyond the catalogue, by name."""
-    figure: Callable[[StudyResult], Figure]
+    """Numbers of a flight beyond the catalogue, by name."""
+    figures: tuple[Callable[[StudyResult], Figure], ...]
+    sampler: Callable[[Loaded, int], Sampler] | None = None
+    """Of a study that can do without flying: takes the mission and the seed."""
+    flown_columns: tuple[StudyColumn, ...] = ()
+    """Metrics of the catalogue that a study with a sampler shows in addition once it flies."""
+    concluded: Callable[[StudyResult], StudyResult] | None = None
+    """Adds thresholds and findings."""
+
+
+@dataclass(frozen=True)
+class Sampled:
+    """What a variant's plan and samples come to without a flight, by the names of metrics."""
+
+    metrics: Mapping[str, Metric]
+    standard_errors: Mapping[str, float]
+
+
+class Sampler(Protocol):
+    """Computes a variant's numbers from its plan and from what is truly so."""
+
+    @property
+    def trials(self) -> int:
+        """How many samples each mean is taken over."""
+        ...
+
+    def __call__(self, variant: Variant, plan: Plan | CoveragePlan) -> Sampled:
+        """The numbers of one variant."""
+        ...
 
 
 @dataclass(frozen=True)

@@ -19,6 +19,7 @@ from inspect_cli.log import names
 from inspect_cli.log.decode import UndecodableError, decode_rows, log_times, payloads
 from inspect_cli.log.foxglove import Cloud, Event, level_of, points_of
 from inspect_cli.log.layout import Bytes
+from inspect_cli.log.rasters import TrueRaster, decoded
 from inspect_cli.log.walk import RawLog, walk
 from inspect_cli.records import CORE_RECORDS, Record
 from inspect_cli.schema.mission import Mission
@@ -97,6 +98,17 @@ class RunLog:
         if names.TRUTH not in self.attachments:
             return None
         return self._model(names.TRUTH, TruthModel)
+
+    def true_rasters(self) -> tuple[TrueRaster, ...]:
+        """What was so beneath the surfaces of a simulated flight; nothing for a real one."""
+        data = self.attachments.get(names.SPECIMEN)
+        if data is None:
+            return ()
+        try:
+            return decoded(data)
+        except ValueError as error:
+            what = f"the attachment '{names.SPECIMEN}' cannot be read: {error}"
+            raise self._error(what, "fly again, or leave it out: then nothing is scored") from error
 
     @property
     def seed(self) -> int | None:

@@ -12,6 +12,7 @@ from inspect_cli.metrics import (
 )
 from inspect_cli.metrics.catalogue_estimation import ESTIMATION_METRICS
 from inspect_cli.metrics.catalogue_flight import FLIGHT_METRICS
+from inspect_cli.metrics.catalogue_scoring import SCORING_METRICS
 from inspect_cli.metrics.catalogue_sliding import SLIDING_METRICS
 from inspect_cli.metrics.joined import (
     GREATEST,
@@ -325,4 +326,5 @@ METRICS: dict[str, MetricSpec] = {
     **FLIGHT_METRICS,
     **ESTIMATION_METRICS,
     **SLIDING_METRICS,
+    **SCORING_METRICS,
 }

@@ -9,10 +9,14 @@ import numpy as np
 from inspect_cli.log.reader import RunLog
 from inspect_cli.metrics.acceptance import answer_all
 from inspect_cli.metrics.catalogue import METRICS
+from inspect_cli.metrics.catalogue_scoring import metrics_of
 from inspect_cli.metrics.flight import Flight, NotMeasured
 from inspect_cli.metrics.points import point_results
 from inspect_cli.metrics.spec import MetricSpec
+from inspect_cli.metrics.truth_scoring import scoring_of
+from inspect_cli.records import Reading
 from inspect_cli.schema.result import Metric, Result
+from inspect_cli.schema.scoring import Scoring
 
 
 def evaluate(log: RunLog) -> Result:
@@ -28,7 +32,9 @@ def evaluate(log: RunLog) -> Result:
     mission = log.mission()
     # The states of a diverged flight overflow; what is not finite is caught number by number.
     with np.errstate(all="ignore"):
-        metrics = {name: measure(spec, flight) for name, spec in METRICS.items()}
+        scoring = _scoring(flight)
+        scored = metrics_of(scoring) if scoring else {}
+        metrics = {n: scored.get(n) or measure(spec, flight) for n, spec in METRICS.items()}
         points = point_results(flight)
     return Result(
         mission=mission.name,
@@ -39,7 +45,18 @@ def evaluate(log: RunLog) -> Result:
         checks=answer_all(mission.acceptance, metrics),
         metrics=metrics,
         points=points,
+        scoring=scoring,
     )
+
+
+def _scoring(flight: Flight) -> Scoring | None:
+    """The verdicts against the truth, taken once for all the metrics that show parts of it."""
+    if flight.log.rows(Reading) is None:
+        return None
+    try:
+        return scoring_of(flight)
+    except NotMeasured:
+        return None
 
 
 def measure(spec: MetricSpec, flight: Flight) -> Metric:

@@ -18,7 +18,7 @@ import numpy as np
 class Joined:
     """A rule; ``weight`` names the metric that each flight's value is weighted with."""
 
-    rule: Literal["sum", "greatest", "least", "mean", "rms", "none"]
+    rule: Literal["sum", "greatest", "least", "mean", "rms", "anew", "none"]
     weight: str = ""
 
     def of(self, values: Sequence[float], weights: Sequence[float]) -> float:
@@ -42,5 +42,7 @@ MEAN_OVER_POINTS = Joined("mean", "contact.points_total")
 MEAN_OVER_ENERGY = Joined("mean", "flight.energy_wh_flown")
 """Σ E x / Σ E: of ratios planned / flown this is the ratio of the sums."""
 RMS_OVER_TIME = Joined("rms", "flight.duration_s")
+SCORED_ANEW = Joined("anew")
+"""Is scored again over all points, because areas and sites of several flights overlap."""
 NOT_JOINED = Joined("none")
 """Says something of a single flight only."""

@@ -2,14 +2,21 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 
+from inspect_cli.log.rasters import TrueRaster
 from inspect_cli.metrics.acceptance import answer_all
 from inspect_cli.metrics.catalogue import METRICS
+from inspect_cli.metrics.catalogue_scoring import metrics_of
+from inspect_cli.metrics.flight import NotMeasured
 from inspect_cli.metrics.joined import Joined
-from inspect_cli.schema.mission import Acceptance
+from inspect_cli.metrics.truth_scoring import score
+from inspect_cli.schema.mission import Acceptance, Mission
 from inspect_cli.schema.plan import Target
 from inspect_cli.schema.result import Metric, PointResult, Result, Status
+from inspect_cli.schema.scoring import Scoring
+
+ScoreAll = Callable[[Sequence[PointResult]], Scoring | None]
 
 UNVISITED = "not visited"
 MISSED = ("contact.points_total", "half_cell.map_mismatches")
@@ -21,6 +28,7 @@ def joined_result(
     unvisited: Sequence[Target],
     acceptance: Iterable[Acceptance],
     seed: int | None,
+    score_all: ScoreAll | None = None,
 ) -> Result:
     """The flights as one survey: all points, every metric by its rule, the mission's acceptance.
 
@@ -29,9 +37,12 @@ def joined_result(
         unvisited: the targets of flights that were planned and not flown.
         acceptance: of the mission.
         seed: of the whole run, from which those of the flights were drawn.
+        score_all: holds all points together against what is truly so, where that is known.
     """
     first = results[0]
-    metrics = joined_metrics(results, len(unvisited))
+    points = tuple(_numbered([*_visited(results), *map(_never_read, unvisited)]))
+    scoring = score_all(points) if score_all else None
+    metrics = joined_metrics(results, len(unvisited), scoring)
     status, reason = _status(results, len(unvisited))
     return Result(
         mission=first.mission,
@@ -41,17 +52,37 @@ def joined_result(
         status_reason=reason,
         checks=answer_all(acceptance, metrics),
         metrics=metrics,
-        points=tuple(_numbered([*_visited(results), *map(_never_read, unvisited)])),
+        points=points,
+        scoring=scoring,
     )
 
 
-def joined_metrics(results: Sequence[Result], unvisited: int = 0) -> dict[str, Metric]:
+def scorer(surface: str | None, rasters: Sequence[TrueRaster], mission: Mission) -> ScoreAll:
+    """What scores all points of a survey of one surface; None where nothing can be scored."""
+
+    def score_all(points: Sequence[PointResult]) -> Scoring | None:
+        try:
+            return score([(surface, point) for point in points], rasters, mission)
+        except NotMeasured:
+            return None
+
+    return score_all
+
+
+def joined_metrics(
+    results: Sequence[Result], unvisited: int = 0, scoring: Scoring | None = None
+) -> dict[str, Metric]:
     """Every metric of the flights by the rule that stands beside it in the catalogue.
 
     A metric that one of the flights does not have is not measured of the survey either. The
     ``unvisited`` points of flights that were not flown count as points and have no reading.
+    ``scoring`` is that of all points.
     """
-    metrics = {name: _joined(name, spec.joined, results) for name, spec in METRICS.items()}
+    scored = metrics_of(scoring) if scoring else {}
+    metrics = {
+        name: scored.get(name) or _joined(name, spec.joined, results)
+        for name, spec in METRICS.items()
+    }
     if not unvisited:
         return metrics
     for name in MISSED:
@@ -69,6 +100,10 @@ def _joined(name: str, joined: Joined, results: Sequence[Result]) -> Metric:
     unit = METRICS[name].unit
     if joined.rule == "none":
         why = "it belongs to a single flight and is in the report of each"
+        return Metric(value=None, unit=unit, why=why)
+    if joined.rule == "anew":
+        first = results[0].metrics.get(name)
+        why = (first.why if first else "") or "the points of all sorties were not scored together"
         return Metric(value=None, unit=unit, why=why)
     needed = [name, joined.weight] if joined.weight else [name]
     for number, result in enumerate(results, 1):

@@ -30,6 +30,7 @@ EXACT = Tolerance(0.0, 0.0)
 
 BY_UNIT: dict[str, Tolerance] = {
     "m": Tolerance(0.0005, 0.05),
+    "m²": Tolerance(1e-5, 0.001),
     "m/s": Tolerance(0.01, 0.05),
     "rad": Tolerance(0.001, 0.05),
     "°": Tolerance(0.05, 0.05),
@@ -59,6 +60,7 @@ BY_METRIC: dict[str, Tolerance] = {
     # Two points on either side of a site may read the same.
     "half_cell.potential_min_point": Tolerance(1.0, 0.0),
     "flight.energy_planned_over_flown": Tolerance(0.0, 0.01),
+    "scoring.detected_share": Tolerance(0.0, 0.001),
     "flight.saturated_share": Tolerance(0.002, 0.10),
     "pull.along_over_z": Tolerance(0.1, 0.15),
     "pull.along_over_attitude": Tolerance(0.1, 0.15),

@@ -9,7 +9,7 @@ from inspect_cli.reporting.figure import Figure, Json
 from inspect_cli.reporting.palette import BLUE, GREEN, INK, ORANGE
 from inspect_cli.reporting.published import SOURCE, TABLE_IV
 from inspect_cli.reporting.text import Text, say, significant, together
-from inspect_cli.schema.study import Quantity, StudyResult
+from inspect_cli.schema.study import Quantity, StudyResult, StudyVariant
 
 PREDICTED = "study.lag_contact_rmse_fx_n"
 """What the observer's lag alone would err by; the study ``force`` computes it."""
@@ -45,7 +45,7 @@ class Row:
 
     heading: Text
     curves: tuple[Curve, ...]
-    level: Level
+    level: Level | None
     share: float
     """Of the figure's height."""
 
@@ -113,6 +113,15 @@ def sweep_panels(study: StudyResult, rows: Sequence[Row]) -> tuple[list[Json], J
     return traces, layout
 
 
+def error_bars(variants: Sequence[StudyVariant], metric: str, colour: str) -> Json:
+    """What draws a mean's standard errors; nothing for a metric that is no mean."""
+    errors = [variant.standard_errors.get(metric) for variant in variants]
+    if all(error is None for error in errors):
+        return {}
+    bars: Json = {"type": "data", "array": errors, "color": colour, "thickness": 1.2, "width": 4}
+    return {"error_y": bars}
+
+
 def _number(panel: int) -> str:
     """What plotly appends to the names of a panel's axes: nothing for the first."""
     return str(panel + 1) if panel else ""
@@ -141,8 +150,9 @@ def _panel(
             "hovertemplate": together(
                 f"%{{x:g}} {quantity.unit}: %{{y:.3g}}<extra>", curve.label, "</extra>"
             ),
+            **error_bars(variants, curve.metric, curve.colour),
         }
-    if x:
+    if x and row.level:
         yield axes | {
             "mode": "lines",
             "name": row.level.label,

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 from inspect_cli.reporting.content import (
     Block,
     Column,
@@ -32,20 +34,25 @@ from inspect_cli.reporting.text import (
 )
 from inspect_cli.schema.study import StudyResult, StudyVariant
 
+WHOLE = 100.0
+"""From here on three digits are a whole number."""
 
-def study_document(study: StudyResult, explained: Text, figure: Figure) -> Document:
+
+def study_document(study: StudyResult, explained: Text, figures: Sequence[Figure]) -> Document:
     """What the page of a study says; it draws what ``study`` holds and computes nothing.
 
     Args:
         study: the flights' numbers.
         explained: what was varied and held against what, in sentences.
-        figure: the metrics against the quantities.
+        figures: the metrics against the quantities.
     """
+    sweeps: list[Block] = [*_findings(study), Paragraph(explained), *drawn(figures)]
     sections = [
-        Section("sweeps", say("Sweeps"), [Paragraph(explained), *drawn([figure])]),
+        Section("sweeps", say("Sweeps"), sweeps),
         Section("variants", say("Variants"), [*_shortfalls(study), _numbers(study)]),
-        Section("flights", say("Flights"), [_flights(study)]),
     ]
+    if _flown(study):
+        sections.append(Section("flights", say("Flights"), [_flights(study)]))
     title = Said(study.title)
     return Document(say("{title} – study", title=title), _cover(study, title), sections)
 
@@ -55,8 +62,8 @@ def _cover(study: StudyResult, title: Text) -> Cover:
         (say("Mission"), study.mission),
         (say("Platform"), study.platform),
         (say("Seed"), str(study.seed)),
-        (say("Kind"), say("simulated flights")),
-        (say("Flights"), number(len(study.variants), 0)),
+        (say("Kind"), _kind(study)),
+        (say("Flights"), number(len(_flown(study)), 0)),
         *(
             (
                 say("{symbol} of the mission", symbol=q.symbol),
@@ -66,6 +73,24 @@ def _cover(study: StudyResult, title: Text) -> Cover:
         ),
     ]
     return Cover(say("Study"), title, "", facts)
+
+
+def _kind(study: StudyResult) -> Text:
+    if not study.trials:
+        return say("simulated flights")
+    trials = number(study.trials, 0)
+    if not _flown(study):
+        return say("planned, and sampled {n} times each", n=trials)
+    return say("planned, and sampled {n} times each; flown once in simulation", n=trials)
+
+
+def _flown(study: StudyResult) -> list[StudyVariant]:
+    """The variants that have a folder of a run, or should have one."""
+    return [variant for variant in study.variants if variant.folder is not None]
+
+
+def _findings(study: StudyResult) -> list[Block]:
+    return [Paragraph(recorded(text), "finding") for text in study.findings]
 
 
 def _shortfalls(study: StudyResult) -> list[Block]:
@@ -84,7 +109,7 @@ def _numbers(study: StudyResult) -> Table:
         [
             say("mission") if _as_it_stands(study, variant) else "",
             *(significant(variant.values[q.name]) for q in study.quantities),
-            *(significant(variant.value(c.metric), 3) for c in study.columns),
+            *(_value(variant, c.metric) for c in study.columns),
         ]
         for variant in study.variants
     ]
@@ -94,6 +119,13 @@ def _numbers(study: StudyResult) -> Table:
         rows.append([say("published"), *[NOTHING] * len(quantities), *published])
         caption.append(say("Published: {source}.", source=SOURCE))
     return Table(sentences(caption), [Column(""), *quantities, *metrics], rows, wide=True)
+
+
+def _value(variant: StudyVariant, metric: str) -> Text:
+    """A number, with its standard error if it is a mean."""
+    value, error = variant.value(metric), variant.standard_errors.get(metric)
+    shown = significant(value, 3) if abs(value or 0.0) < WHOLE else number(value, 0)
+    return shown if error is None else together(shown, " ± ", significant(error, 2))
 
 
 def _as_it_stands(study: StudyResult, variant: StudyVariant) -> bool:
@@ -108,14 +140,14 @@ def _lines(heading: str) -> Lines:
 def _flights(study: StudyResult) -> Table:
     rows: list[list[Text]] = [
         [
-            code(variant.folder),
+            code(variant.folder or ""),
             Chip(
                 recorded(variant.status),
                 "pass" if variant.status == study.expect_status else "fail",
             ),
             ", ".join(variant.failed_checks) or NOTHING,
         ]
-        for variant in study.variants
+        for variant in _flown(study)
     ]
     columns = [
         Column(say("Run's folder beside this page")),

@@ -7,6 +7,7 @@ from typing import Annotated, Literal
 from pydantic import Field
 
 from inspect_cli.schema.base import Strict, Triple
+from inspect_cli.schema.scoring import Scoring
 
 Status = Literal["completed", "aborted", "diverged", "interrupted"]
 Verdict = Literal["pass", "fail", "fail-known", "not_measured"]
@@ -81,6 +82,8 @@ class Result(Strict):
     checks: tuple[Check, ...]
     metrics: dict[str, Metric]
     points: tuple[PointResult, ...]
+    scoring: Scoring | None = None
+    """The verdicts against what is truly so; a real flight has none."""
 
     @property
     def passed(self) -> bool:

@@ -39,20 +39,32 @@ class StudyVariant(Strict):
     """The mission with one choice of the varied quantities, and what its flight came to."""
 
     name: Name
-    folder: str
-    """Of its run, relative to the study's file."""
+    folder: str | None
+    """Of its run, relative to the study's file; None where it was not to be flown."""
     values: dict[Name, float]
-    status: Status | Literal["not flown"]
+    status: Status | Literal["not flown", "sampled"]
     status_reason: str = ""
     failed_checks: tuple[str, ...] = ()
     """Metrics of the mission's acceptance that the variant misses: told, not held against it."""
     metrics: dict[str, Metric]
     """Those that the study shows."""
+    standard_errors: dict[str, float] = {}
+    """Of the metrics that are means over several trials."""
 
     def value(self, metric: str) -> float | None:
         """A metric's value; None where there is none."""
         found = self.metrics.get(metric)
         return found.value if found else None
+
+
+class Threshold(Strict):
+    """Where a metric first falls below a level, as a quantity grows."""
+
+    metric: str
+    quantity: Name
+    level: float
+    first_below: float | None
+    """The quantity's smallest value with the metric below the level; None where there is none."""
 
 
 class StudyResult(Strict):
@@ -69,6 +81,11 @@ class StudyResult(Strict):
     quantities: Annotated[tuple[Quantity, ...], Field(min_length=1)]
     columns: tuple[StudyColumn, ...]
     variants: Annotated[tuple[StudyVariant, ...], Field(min_length=1)]
+    trials: Annotated[int, Field(ge=0)] = 0
+    """Samples without a flight that each variant's means were taken over."""
+    thresholds: tuple[Threshold, ...] = ()
+    findings: tuple[str, ...] = ()
+    """What came out, in sentences."""
 
     def sweep(self, quantity: Quantity) -> tuple[StudyVariant, ...]:
         """The variants that differ from the mission in this quantity alone, by its value."""
@@ -88,7 +105,7 @@ class StudyResult(Strict):
         )
 
     def _short(self, variant: StudyVariant) -> str:
-        if variant.status != self.expect_status:
+        if variant.status not in (self.expect_status, "sampled"):
             return ": ".join(filter(None, (variant.status, variant.status_reason)))
         missing = (c.metric for c in self.columns if variant.value(c.metric) is None)
         return ", ".join(f"{m}: {variant.metrics[m].why}" for m in missing)

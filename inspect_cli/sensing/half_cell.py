@@ -18,13 +18,14 @@ Out of contact, or where there is no specimen, the circuit is open: the input of
 from __future__ import annotations
 
 import math
-from typing import Final
+from typing import Final, TypeVar
 
 import numpy as np
 
 from inspect_cli.records import Probe, State, TrueContact
 from inspect_cli.schema.vehicle import HalfCellModel
 from inspect_cli.sensing.instrument import Noise
+from inspect_cli.spatial.arrays import Vector
 
 TOUCH_N: Final = 0.05
 """True normal force from which the electrode touches."""
@@ -36,6 +37,46 @@ FLOATING_V: Final = 0.2
 """Standard deviation of an open input's potential around zero."""
 FLOATING_S: Final = 0.3
 """Time constant of its wandering."""
+
+
+Number = TypeVar("Number", float, Vector)
+
+
+def shown_potential(
+    model: HalfCellModel, potential: Number, dryness: Number, noise: Number
+) -> Number:
+    """The voltmeter's value, V, in contact; ``dryness`` is e^(−t/τ)."""
+    return potential + (model.dry_offset_v * dryness + model.potential_noise_v * noise)
+
+
+def shown_resistance(
+    model: HalfCellModel, resistivity: Number, dryness: Number, lightness: float, noise: Number
+) -> Number:
+    """The ohmmeter's value, Ω, in contact; ``lightness`` is max(0, 1 − F/F_min)."""
+    resistance = resistivity / model.cell_constant_m * (1.0 + dryness + lightness)
+    return resistance * (1.0 + model.resistance_noise * noise)
+
+
+def steady_readings(
+    model: HalfCellModel,
+    potential: Vector,
+    resistivity: Vector,
+    rate_hz: float,
+    dwell_s: float,
+    rng: np.random.Generator,
+) -> tuple[Vector, Vector]:
+    """What readings of a firm contact come to, without a flight: (n,) V and (n,) Ω.
+
+    The medians over the last ``stable_s`` of the dwell, as the judge of readings takes them.
+    NaN where the specimen has no values.
+    """
+    count = max(1, round(model.stable_s * rate_hz))
+    wetted_s = max(dwell_s, model.min_contact_s) - np.arange(count)[:, None] / rate_hz
+    dryness = np.exp(-np.maximum(wetted_s, 0.0) / model.wetting_s)
+    noise = rng.standard_normal((2, count, len(potential)))
+    volts = shown_potential(model, potential, dryness, noise[0])
+    ohms = shown_resistance(model, resistivity, dryness, 0.0, noise[1])
+    return np.median(volts, axis=0), np.median(ohms, axis=0)
 
 
 class HalfCellProbe:
@@ -67,13 +108,10 @@ class HalfCellProbe:
         potential, resistivity = contact.potential, contact.resistivity
         if math.isnan(potential) or math.isnan(resistivity):
             return
-        model = self._model
-        dryness = math.exp(-self._wetted_s / model.wetting_s)
-        lightness = max(0.0, 1.0 - force / model.min_force_n)
-        potential += model.dry_offset_v * dryness + model.potential_noise_v * noise[0]
-        resistance = resistivity / model.cell_constant_m * (1.0 + dryness + lightness)
-        resistance *= 1.0 + model.resistance_noise * noise[1]
-        measurement.potential = potential
+        dryness = math.exp(-self._wetted_s / self._model.wetting_s)
+        lightness = max(0.0, 1.0 - force / self._model.min_force_n)
+        measurement.potential = shown_potential(self._model, potential, dryness, noise[0])
+        resistance = shown_resistance(self._model, resistivity, dryness, lightness, noise[1])
         measurement.resistance = min(max(0.0, resistance), OVER_RANGE_OHM)
 
     def _float(self, dt: float, noise: float) -> None:

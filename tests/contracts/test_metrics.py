@@ -16,6 +16,7 @@ from inspect_cli.schema.loading import load_mission
 
 SUFFIXES = {
     "m": ("_m",),
+    "m²": ("_area_m2",),
     "rad": ("_rad",),
     "°": ("_deg",),
     "N": ("_n",),
@@ -29,6 +30,7 @@ SUFFIXES = {
     "1": (
         *("_growth", "_min_point", "_over_hovering"),
         *("_cv", "_count", "_gaps", ".gaps", "_mask", "_mismatches", "_points", "_rel_max"),
+        "_found",
         *("_share", "_total", "_valid", "_over_attitude", "_over_flown", "_over_z"),
     ),
 }

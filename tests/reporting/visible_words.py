@@ -76,7 +76,7 @@ def foreign(flight: Flight) -> set[str]:
         found |= {surface.name, surface.source, surface.fit.method if surface.fit else ""}
     found |= {event.text for event in log.events} | {flight.status_reason}
     found |= {*log.attachments, *log.versions, *log.versions.values(), *METRICS}
-    found |= {topic for topic in re.findall(r"/[a-z_/]+", " ".join(_topics()))}
+    found |= set(re.findall(r"/[a-z_/]+", " ".join(_topics())))
     return found - {""}
 
 

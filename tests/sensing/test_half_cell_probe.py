@@ -7,7 +7,13 @@ import pytest
 
 from inspect_cli.records import State, TrueContact
 from inspect_cli.schema.vehicle import HalfCellModel
-from inspect_cli.sensing.half_cell import FLOATING_V, OVER_RANGE_OHM, HalfCellProbe
+from inspect_cli.sensing.half_cell import (
+    FLOATING_V,
+    OVER_RANGE_OHM,
+    HalfCellProbe,
+    steady_readings,
+)
+from inspect_cli.sensing.reading import ReadingJudge
 
 QUIET = HalfCellModel(
     potential_noise_v=0.0,
@@ -93,3 +99,47 @@ def test_noise_is_as_the_model_says() -> None:
     samples = bench.press(2.0, 200.0)  # 10,000 samples: sd within 0.7 %, five times that
     assert samples.std(axis=0) == pytest.approx([0.002, 0.03 * 1600.0, 0.1], rel=0.036)
     assert samples.mean(axis=0) == pytest.approx([-0.35, 1600.0, 2.0], rel=0.002)
+
+
+def test_readings_without_a_flight_are_those_that_the_judge_accepts() -> None:
+    """Mean and spread of 200 readings each, by the probe and the judge, and in one draw.
+
+    The median of 50 samples spreads by 1.25 σ/√50; of 200 readings the mean is known to a
+    fourteenth and the spread to a twentieth of that, both tolerances are five times as wide.
+    """
+    rng = np.random.default_rng(4)
+    wanted = 200
+    accepted = []
+    for seed in range(wanted):
+        bench, judge = Bench(NOISY, seed), ReadingJudge(NOISY, 3.0)
+        judge.begin(0, 0.0)
+        while not judge.done(bench.state.t_s):
+            bench.press(2.0, 0.02)
+            judge.feed(bench.probe.measurement, np.zeros(3))
+        reading = judge.finish(bench.state.t_s)
+        assert reading.valid == 1.0
+        accepted.append((reading.potential, reading.resistance))
+    flown = np.array(accepted)
+    specimen = np.full(wanted, -0.35), np.full(wanted, 80.0)
+    drawn = np.column_stack(steady_readings(NOISY, *specimen, 50.0, 3.0, rng))
+    spread = 1.25 / np.sqrt(50) * np.array([0.002, 0.03 * 1600.0])
+    for k in range(2):
+        apart = abs(drawn[:, k].mean() - flown[:, k].mean())
+        assert apart < 5.0 * spread[k] * np.sqrt(2.0 / wanted)
+        for readings in (drawn, flown):
+            assert readings[:, k].std() == pytest.approx(spread[k], rel=0.25)
+
+
+def test_a_place_without_a_specimen_has_no_reading() -> None:
+    volts, ohms = steady_readings(
+        QUIET,
+        np.array([np.nan, -0.35]),
+        np.array([np.nan, 80.0]),
+        50.0,
+        10.0,
+        np.random.default_rng(1),
+    )
+    assert np.isnan(volts[0])
+    assert np.isnan(ohms[0])
+    assert volts[1] == pytest.approx(-0.35, abs=1e-8)
+    assert ohms[1] == pytest.approx(1600.0)

@@ -1,0 +1,225 @@
+"""The study ``pitch``: what a wider grid saves, and what it misses.
+
+The cost of each pitch is planned over the same surface, what it finds is sampled
+(``commands.pitch_sampling``), and with ``--fly`` every pitch is flown once besides. Points that
+the refinement rule would add in flight are left out: the pitch alone is varied.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from dataclasses import replace
+from itertools import pairwise
+
+import numpy as np
+
+from inspect_cli.commands.pitch_sampling import PitchSampler
+from inspect_cli.commands.plan import plan_loaded, vehicle_of
+from inspect_cli.commands.sweeps import Factor, Study, revalidated, shortest
+from inspect_cli.errors import InputError, Location, Problem
+from inspect_cli.reporting.figures_pitch import (
+    DETECTED,
+    DURATION,
+    ENERGY,
+    FALSE,
+    LEVEL,
+    MISSED,
+    POINTS,
+    SITES,
+    SORTIES,
+    cost_figure,
+    pitch_figure,
+)
+from inspect_cli.schema.coverage import CoveragePlan
+from inspect_cli.schema.loading import Loaded
+from inspect_cli.schema.plan import Plan
+from inspect_cli.schema.study import StudyColumn, StudyResult, StudyVariant, Threshold
+from inspect_cli.schema.tasks import ContactGrid, Coverage
+from inspect_cli.spatial.arrays import Points
+from inspect_cli.truth.geometry import true_structure
+from inspect_cli.truth.rasters import all_beneath
+
+WHOLE_LINES = 1e-9
+
+
+def _work(loaded: Loaded) -> ContactGrid | Coverage:
+    """The mission's grid.
+
+    Raises:
+        InputError: it has none to vary.
+    """
+    tasks = loaded.mission.tasks
+    work = tasks[0].work
+    if len(tasks) != 1 or not isinstance(work, ContactGrid | Coverage):
+        raise _refused(
+            loaded,
+            "the study 'pitch' needs a mission with a single task, a coverage or a contact_grid",
+            "see missions/wall_pitch_study.yaml",
+        )
+    return work
+
+
+def _refuse(loaded: Loaded) -> None:
+    work = _work(loaded)
+    if loaded.mission.tasks[0].instrument is None:
+        raise _refused(loaded, "the study 'pitch' needs readings; sensor: none takes none", "")
+    if isinstance(work, ContactGrid) and work.rows * work.columns == 1:
+        raise _refused(loaded, "a single point has no pitch to vary", "give more rows or columns")
+    entry = loaded.truth.structure.get(work.on)
+    if entry is None or entry.specimen is None or entry.absent:
+        raise _refused(
+            loaded,
+            f"the study 'pitch' needs a specimen beneath '{work.on}': what is there to be found",
+            f"give one under truth: structure: {work.on}: specimen",
+        )
+
+
+def _refused(loaded: Loaded, what: str, hint: str) -> InputError:
+    return InputError(Problem(what, Location(str(loaded.mission_file)), hint))
+
+
+def _pitch(loaded: Loaded) -> float:
+    return _work(loaded).pitch_m
+
+
+def _with_pitch(loaded: Loaded, pitch_m: float) -> Loaded:
+    """The same extent with another pitch; the rows and columns of a grid follow."""
+    work, task = _work(loaded), loaded.mission.tasks[0]
+    changed: ContactGrid | Coverage
+    if isinstance(work, Coverage):
+        changed = revalidated(work, pitch_m=pitch_m, refine=None)
+        task = revalidated(task, coverage=changed)
+    else:
+        lines = {name: _lines(work, name, pitch_m) for name in ("rows", "columns")}
+        changed = revalidated(work, pitch_m=pitch_m, **lines)
+        task = revalidated(task, contact_grid=changed)
+    return replace(loaded, mission=revalidated(loaded.mission, tasks=(task,)))
+
+
+def _lines(grid: ContactGrid, name: str, pitch_m: float) -> int:
+    """How many rows or columns keep the extent of so many pitches; a single line stays one."""
+    count = int(getattr(grid, name))
+    if count == 1 or not pitch_m > 0.0:  # the schema refuses the pitch
+        return count
+    extent_m = count * grid.pitch_m
+    found = math.floor(extent_m / pitch_m + WHOLE_LINES)
+    if found < 1:
+        raise ValueError(f"the {name} cover {extent_m:g} m: not even one would be left")
+    return found
+
+
+def _sampler(loaded: Loaded, seed: int) -> PitchSampler:
+    """The region that the mission itself covers, and what is truly beneath it."""
+    as_it_stands = _with_pitch(loaded, _pitch(loaded))
+    plan = plan_loaded(as_it_stands, vehicle_of(as_it_stands))
+    one = plan.joined() if isinstance(plan, CoveragePlan) else plan
+    structure = true_structure(loaded.truth, one.surfaces, loaded.root)
+    work = _work(as_it_stands)
+    beneath = next(b for b in all_beneath(structure, one.surfaces) if b.surface == work.on)
+    return PitchSampler(as_it_stands, work, beneath, _planned(one), seed)
+
+
+def _planned(plan: Plan) -> Points:
+    return np.array([target.uv_m for target in plan.targets if target.uv_m is not None])
+
+
+def _concluded(result: StudyResult) -> StudyResult:
+    """With the pitches at which area and sites are first missed, in numbers and in words."""
+    pitches = result.sweep(result.quantities[0])
+    what = {
+        DETECTED: "of the truly active area is judged active",
+        SITES: "of the sites are found",
+    }
+    thresholds = tuple(_threshold(result, pitches, metric) for metric in what)
+    words = tuple(_in_words(pitches, threshold, what[threshold.metric]) for threshold in thresholds)
+    slack = tuple(_unsteady(pitches))
+    return result.model_copy(update={"thresholds": thresholds, "findings": words + slack})
+
+
+def _threshold(result: StudyResult, pitches: tuple[StudyVariant, ...], metric: str) -> Threshold:
+    quantity = result.quantities[0].name
+    below = (v.values[quantity] for v in pitches if (v.value(metric) or 0.0) < LEVEL)
+    return Threshold(metric=metric, quantity=quantity, level=LEVEL, first_below=next(below, None))
+
+
+def _in_words(pitches: tuple[StudyVariant, ...], threshold: Threshold, what: str) -> str:
+    subject = "Detection" if threshold.metric == DETECTED else "Detection of whole sites"
+    level = f"{100.0 * threshold.level:g} %"
+    told = [
+        (variant.values[threshold.quantity], _percent(variant, threshold.metric))
+        for variant in pitches
+    ]
+    at = [pitch for pitch, _ in told]
+    if threshold.first_below is None:
+        return (
+            f"{subject} stays at {level} or above up to the widest pitch, {shortest(at[-1])} m: "
+            f"{told[-1][1]} {what} there."
+        )
+    k = at.index(threshold.first_below)
+    here = f"{told[k][1]} {what} there"
+    if k == 0:
+        return (
+            f"{subject} is below {level} at the finest pitch already, {shortest(at[0])} m: {here}."
+        )
+    return (
+        f"{subject} first drops below {level} at a pitch of {shortest(at[k])} m: {here}, "
+        f"{told[k - 1][1]} at {shortest(at[k - 1])} m."
+    )
+
+
+def _percent(variant: StudyVariant, metric: str) -> str:
+    value, error = variant.value(metric) or 0.0, variant.standard_errors.get(metric, 0.0)
+    return f"{100.0 * value:.1f} ± {100.0 * error:.1f} %"
+
+
+def _unsteady(pitches: tuple[StudyVariant, ...]) -> Iterator[str]:
+    """Where a wider grid missed less than can be chance; nobody should take that for a rule."""
+    for finer, wider in pairwise(pitches):
+        gain = (finer.value(MISSED) or 0.0) - (wider.value(MISSED) or 0.0)
+        errors = (v.standard_errors.get(MISSED, 0.0) for v in (finer, wider))
+        if gain > 2.0 * math.hypot(*errors):
+            a, b = (shortest(v.values["pitch"]) for v in (finer, wider))
+            yield (
+                f"The grid of {b} m missed less area than that of {a} m, by more than twice the "
+                "standard error: active sites on this surface lie in step with the grid."
+            )
+
+
+PITCH = Study(
+    title="Pitch of the grid: cost against detection",
+    explained=(
+        "The pitch of the grid is varied over the region that the mission covers. Points, sorties, "
+        "time and energy are planned. What is found is sampled: the grid is laid onto the region "
+        "with 20 offsets, stratified over one pitch along u and v, and the readings are simulated "
+        "from the specimen by the probe's own model, where the tool truly is. Every place of the "
+        "region stands for its nearest reading, and the verdict, by potential and resistivity "
+        "together, is held against what is truly so. Numbers with ± are means over the offsets "
+        "with their standard errors. A site is a connected truly active region, and it is found "
+        "when a reading within it was judged active."
+    ),
+    factors=(Factor("pitch", "pitch", "p", "m", (0.1, 0.15, 0.25, 0.5), _pitch, _with_pitch),),
+    columns=(
+        StudyColumn(metric=POINTS, heading="Points", unit="1"),
+        StudyColumn(metric=SORTIES, heading="Sorties", unit="1"),
+        StudyColumn(metric=DURATION, heading="Time, planned", unit="s"),
+        StudyColumn(metric=ENERGY, heading="Energy, planned", unit="Wh"),
+        StudyColumn(metric=MISSED, heading="Missed area", unit="m²"),
+        StudyColumn(metric=FALSE, heading="False area", unit="m²"),
+        StudyColumn(metric=DETECTED, heading="Detected share, of area", unit="1"),
+        StudyColumn(metric=SITES, heading="Found share, of sites", unit="1"),
+    ),
+    refuse=_refuse,
+    own={},
+    figures=(pitch_figure, cost_figure),
+    sampler=_sampler,
+    flown_columns=(
+        StudyColumn(metric="scoring.missed_area_m2", heading="Missed area, flown", unit="m²"),
+        StudyColumn(metric="scoring.false_area_m2", heading="False area, flown", unit="m²"),
+        StudyColumn(metric="scoring.detected_share", heading="Detected share, flown", unit="1"),
+        StudyColumn(metric="scoring.sites_found", heading="Sites found, flown", unit="1"),
+        StudyColumn(metric="flight.duration_s", heading="Time, flown", unit="s"),
+        StudyColumn(metric="flight.energy_wh_flown", heading="Energy, flown", unit="Wh"),
+    ),
+    concluded=_concluded,
+)
