@@ -8,7 +8,15 @@ from inspect_cli.reporting.figure import Figure, drawn
 from inspect_cli.reporting.markup import Markup, element, joined
 from inspect_cli.reporting.page import Section, page
 from inspect_cli.reporting.published import SOURCE
-from inspect_cli.reporting.table import NOTHING, Column, chip, definitions, number, significant, table
+from inspect_cli.reporting.table import (
+    NOTHING,
+    Column,
+    chip,
+    definitions,
+    number,
+    significant,
+    table,
+)
 from inspect_cli.schema.study import StudyResult, StudyVariant
 
 WHOLE = 100.0
