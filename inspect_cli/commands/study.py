@@ -100,11 +100,7 @@ def study(
     """
     if jobs < 1:
         raise InputError(f"--jobs must be at least 1, not {jobs}")
-    if name not in STUDIES:
-        raise InputError(f"no study is named '{name}'", hint=suggest(name, list(STUDIES)))
-    chosen, loaded = STUDIES[name], load_mission(mission)
-    if fly_sampled and chosen.sampler is None:
-        raise InputError(f"the study '{name}' flies in any case", hint="leave out --fly")
+    chosen, loaded = _chosen(name, fly_sampled=fly_sampled), load_mission(mission)
     chosen.refuse(loaded)
     values = {option: numbers_of(option, text) for option, text in (asked or {}).items()}
     varied = variants(name, chosen, loaded, values)
@@ -132,6 +128,19 @@ def study(
         ),
         trials=sampler.trials if sampler else 0,
     )
+    return _written(chosen, result, folder)
+
+
+def _chosen(name: str, *, fly_sampled: bool) -> Study:
+    if name not in STUDIES:
+        raise InputError(f"no study is named '{name}'", hint=suggest(name, list(STUDIES)))
+    if fly_sampled and STUDIES[name].sampler is None:
+        raise InputError(f"the study '{name}' flies in any case", hint="leave out --fly")
+    return STUDIES[name]
+
+
+def _written(chosen: Study, result: StudyResult, folder: Path) -> StudyOutcome:
+    """The study's files, with what came out in words."""
     result = chosen.concluded(result) if chosen.concluded else result
     write_model(folder / "study.json", result)
     page = folder / "study.html"
