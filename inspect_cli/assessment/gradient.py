@@ -17,6 +17,7 @@ Source: Elsener and others, RILEM TC 154-EMC, Materials and Structures 36 (2003)
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 from typing import Final
 
@@ -182,12 +183,13 @@ def rises(uv: Points, mv: Vector, low_uv: Points, low_mv: Vector) -> tuple[Vecto
         for j in range(first, len(mv)):
             if u[j] > low_uv[k, 0] + reach:
                 break
-            distance = np.hypot(u[j] - low_uv[k, 0], uv[j, 1] - low_uv[k, 1])
-            if distance > reach or distance == 0.0:
+            du, dv = u[j] - low_uv[k, 0], uv[j, 1] - low_uv[k, 1]
+            square = du * du + dv * dv
+            if square > reach * reach or square == 0.0:
                 continue
             more = mv[j] - low_mv[k]
             if not rise[k] >= more:
                 rise[k] = more
-            if more >= RISE_MV and not within[k] <= distance:
-                within[k] = distance
+            if more >= RISE_MV and not within[k] <= math.sqrt(square):
+                within[k] = math.sqrt(square)
     return rise, within

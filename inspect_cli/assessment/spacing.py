@@ -24,6 +24,9 @@ DIAGONAL_SPACINGS: Final = 1.5
 """Includes the diagonals (√2) and not the next but one (2)."""
 IRREGULAR_SPACINGS: Final = 3.0
 """Readings of a list that is no grid can be neighbours up to this many typical spacings apart."""
+CROWDED: Final = 40
+"""Readings around each, itself included, above which they crowd: 9 on a grid, about 21 on one with
+a point in the middle of every side and square."""
 PLACE_DECIMALS: Final = 6
 """Coordinates that agree to the micrometre are the same row or column."""
 GAP_DECIMALS: Final = 9
@@ -94,20 +97,22 @@ def _grid_gap(uv_m: Points, axis: int) -> float | None:
 def neighbours(uv_m: Points, spacing: Spacing) -> NDArray[np.intp]:
     """Pairs (k, 2) of neighbouring places, each once, the smaller index first, sorted.
 
-    On a grid all that are at most ``DIAGONAL_SPACINGS`` apart. In another list the edges of
-    Delaunay's triangulation up to ``IRREGULAR_SPACINGS``; on a line, each and the next.
+    On a grid all that are at most ``DIAGONAL_SPACINGS`` apart. In another list, or where readings
+    crowd between a grid's, the edges of Delaunay's triangulation up to ``IRREGULAR_SPACINGS``, or
+    as far as on the grid; on a line, each and the next.
     """
     if len(uv_m) < 2:
         return np.zeros((0, 2), np.intp)
-    scaled = _in_spacings(uv_m, spacing)
-    if spacing.is_grid:
-        from scipy.spatial import cKDTree
+    from scipy.spatial import cKDTree
 
-        pairs = cKDTree(scaled).query_pairs(DIAGONAL_SPACINGS, output_type="ndarray")
-        pairs = np.sort(pairs.astype(np.intp), axis=1)
+    scaled = _in_spacings(uv_m, spacing)
+    reach = DIAGONAL_SPACINGS if spacing.is_grid else IRREGULAR_SPACINGS
+    tree = cKDTree(scaled)
+    if spacing.is_grid and tree.count_neighbors(tree, reach) <= CROWDED * len(uv_m):
+        pairs = np.sort(tree.query_pairs(reach, output_type="ndarray").astype(np.intp), axis=1)
     else:
         pairs = _delaunay_edges(scaled)
-        pairs = pairs[_lengths(scaled, pairs) <= IRREGULAR_SPACINGS]
+        pairs = pairs[_lengths(scaled, pairs) <= reach]
     return np.asarray(pairs[np.lexsort((pairs[:, 1], pairs[:, 0]))])
 
 

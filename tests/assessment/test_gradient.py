@@ -168,3 +168,11 @@ def test_neighbours_of_a_grid_are_counted() -> None:
     pairs = neighbours(uv, spacing)
     assert len(pairs) == 6 * 5 + 7 * 4 + 2 * 6 * 4
     assert len(side_by_side(pairs, uv, spacing)) == 6 * 5 + 7 * 4
+
+
+def test_readings_that_crowd_in_a_corner_of_a_grid() -> None:
+    """Then each has the few that are really beside it, not all that are near."""
+    uv = np.vstack([grid(30, 20, 0.5), np.random.default_rng(2).uniform(0, 0.4, (500, 2))])
+    spacing = spacing_of(uv)
+    assert spacing == Spacing(0.5, 0.5, True)
+    assert len(neighbours(uv, spacing)) < 3 * len(uv)
