@@ -13,6 +13,8 @@ TOLERANCE_M = 0.02
 """Farther from the plane than this, (u, v) misstates distances along the surface."""
 THIN = 1e-3
 """Points whose second extent is less than this share of the first lie on a line."""
+LEVEL = np.sqrt(0.5)
+"""A normal whose vertical part is larger belongs to a surface that is rather level than steep."""
 
 
 @dataclass(frozen=True)
@@ -27,26 +29,34 @@ class FittedPlane:
     """and the largest."""
 
 
-def fitted_plane(p_W: Points, seen_from_m: Vector) -> tuple[FittedPlane, Points] | None:
+def fitted_plane(p_W: Points, seen_from_m: Vector | None) -> tuple[FittedPlane, Points] | str:
     """The plane of least squared distances and the points' (u, v) (n, 2) on it, m.
 
     The normal is the right singular vector of the centred points with the least singular value,
-    turned to the side of ``seen_from_m``; u then runs to the right and v up for whoever stands
-    there (``spatial.primitives.level_axes``). The origin is where u and v are least.
+    turned outward; u then runs to the right and v up for whoever stands there
+    (``spatial.primitives.level_axes``). The origin is where u and v are least.
 
     Args:
         p_W: (n, 3), m.
-        seen_from_m: a place on the side that the readings were taken from.
+        seen_from_m: a place on the side that the readings were taken from. Without it, what is
+            rather level than steep is taken for a deck that is seen from above, and what is
+            steep is taken to be seen from the origin, where a total station stands.
 
     Returns:
-        None if the points do not determine a plane.
+        why there is none, if the points do not determine a plane or the place not its side.
     """
     middle = p_W.mean(axis=0)
     _, extents, axes = np.linalg.svd(p_W - middle, full_matrices=False)
     if len(p_W) < 3 or extents[1] <= THIN * extents[0]:
-        return None
-    n = axes[2] if axes[2] @ (seen_from_m - middle) > 0 else -axes[2]
-    R_WS = level_axes(n)
+        return "the points lie on a line and determine no plane"
+    n = axes[2]
+    outward = -middle @ n if seen_from_m is None else (seen_from_m - middle) @ n
+    if seen_from_m is None and abs(n[2]) > LEVEL:
+        outward = n[2]
+    elif abs(outward) < TOLERANCE_M:
+        place = "the origin of the coordinates" if seen_from_m is None else "seen_from_m"
+        return f"{place} lies on the surface, so that nothing tells its outer side"
+    R_WS = level_axes(n if outward > 0 else -n)
     along = (p_W - middle) @ R_WS
     corner = np.array([*along[:, :2].min(axis=0), 0.0])
     off = np.abs(along[:, 2])

@@ -19,7 +19,7 @@ from inspect_cli.surveys.grids import Grid, grid_of
 from inspect_cli.surveys.joining import joined_resistivity
 from inspect_cli.surveys.layout import layout_of
 from inspect_cli.surveys.lists import ReadingList, list_of
-from inspect_cli.surveys.planes import TOLERANCE_M, FittedPlane, fitted_plane
+from inspect_cli.surveys.planes import LEVEL, TOLERANCE_M, FittedPlane, fitted_plane
 from inspect_cli.surveys.plausible import potentials_mv, resistivities_ohm_m
 from inspect_cli.surveys.units import UNITS
 
@@ -209,12 +209,11 @@ def _places(
     if uv_m is not None:
         return p_W, uv_m + settings.origin_m, None, ()
     assert p_W is not None  # a list has x and y, or u and v
-    seen_from = np.array(settings.seen_from_m or (0.0, 0.0, 0.0))
+    seen_from = None if settings.seen_from_m is None else np.array(settings.seen_from_m)
     fitted = fitted_plane(p_W, seen_from)
-    if fitted is None:
-        what = "the points lie on a line and determine no plane"
-        hint = "give columns u and v, the coordinates along the surface"
-        raise InputError(Problem(what, Location(rows.cells.file), hint))
+    if isinstance(fitted, str):
+        hint = "state seen_from_m, or give columns u and v, the coordinates along the surface"
+        raise InputError(Problem(fitted, Location(rows.cells.file), hint))
     plane, uv_m = fitted
     notes: tuple[str, ...] = ()
     if plane.max_m > TOLERANCE_M:
@@ -223,5 +222,6 @@ def _places(
             f"(RMS {plane.rms_m:.3f} m): distances along the surface are only nearly right.",
         )
     if settings.seen_from_m is None:
-        notes += ("The surface is assumed to be seen from the origin of the coordinates.",)
+        side = "from above" if plane.R_WS[2, 2] > LEVEL else "from the origin of the coordinates"
+        notes += (f"The surface is assumed to be seen {side}.",)
     return p_W, uv_m + settings.origin_m, plane, notes

@@ -15,7 +15,6 @@ import zlib
 from collections.abc import Iterator
 from contextlib import contextmanager
 from typing import Any
-from xml.etree.ElementTree import ParseError
 
 from inspect_cli.errors import InputError, Location, Problem
 from inspect_cli.surveys.cells import Cells, Odd, Value, column_letters
@@ -29,10 +28,10 @@ Place = tuple[int, int]
 _FORMULA = re.compile(rb"<(?:\w+:)?f[ >/]")
 _PECULIAR = re.compile(rb'<(?:\w+:)?mergeCell |hidden="(?:1|true)"')
 _BROKEN = (
-    zipfile.BadZipFile, zlib.error, ParseError, OSError, EOFError,
-    KeyError, IndexError, ValueError, TypeError, AttributeError, NotImplementedError,
+    zipfile.BadZipFile, zlib.error, OSError, EOFError, SyntaxError, RuntimeError, ArithmeticError,
+    KeyError, IndexError, ValueError, TypeError, AttributeError,
 )  # fmt: skip
-"""What a damaged workbook makes the libraries raise."""
+"""What a damaged workbook makes the libraries raise; parsers of XML raise SyntaxErrors."""
 
 
 def workbook_cells(data: bytes, file: str, sheet: str | None) -> Cells:

@@ -178,6 +178,31 @@ def test_rough_points_are_mapped_with_a_warning(tmp_path: Path) -> None:
     assert not any("off the plane" in sentence for sentence in smooth.warnings)
 
 
+def test_a_deck_is_seen_from_above_unless_stated(tmp_path: Path) -> None:
+    """At 400 m above the sea, the origin lies far below the deck."""
+    text = "x,y,z,E\n0,0,400,-300\n2,0,400,-310\n2,1,400,-320\n0,1,400,-330\n"
+    survey = read(tmp_path, text)
+    np.testing.assert_allclose(survey.uv_m, [(0, 0), (2, 0), (2, 1), (0, 1)], atol=1e-9)
+    assert survey.warnings == ("The surface is assumed to be seen from above.",)
+    soffit = read(tmp_path, text, seen_from_m=(1.0, 0.5, 395.0))
+    assert soffit.warnings == ()
+    assert soffit.plane is not None
+    np.testing.assert_allclose(soffit.plane.R_WS[:, 2], (0, 0, -1), atol=1e-9)
+    np.testing.assert_allclose(soffit.uv_m, [(0, 1), (2, 1), (2, 0), (0, 0)], atol=1e-9)
+
+
+def test_a_wall_through_the_origin_needs_its_side(tmp_path: Path) -> None:
+    text = "x,y,z,E\n0,0,0,-300\n2,0,0,-310\n2,0,1,-320\n"
+    said = refusal(tmp_path, text)
+    assert "s.csv: the origin of the coordinates lies on the surface" in said
+    assert "seen_from_m" in said
+    assert "seen_from_m lies on the surface" in refusal(tmp_path, text, seen_from_m=(5.0, 0.0, 0.0))
+    front = read(tmp_path, text, seen_from_m=(0.0, -3.0, 0.0))
+    np.testing.assert_allclose(front.uv_m, [(0, 0), (2, 0), (2, 1)], atol=1e-9)
+    back = read(tmp_path, text, seen_from_m=(0.0, 3.0, 0.0))
+    np.testing.assert_allclose(back.uv_m, [(2, 0), (0, 0), (0, 1)], atol=1e-9)
+
+
 def test_points_on_a_line_determine_no_plane(tmp_path: Path) -> None:
     line = np.outer(np.arange(5.0), [1.0, 2.0, 3.0])
     assert "s.csv: the points lie on a line" in refusal(tmp_path, as_text(line))
