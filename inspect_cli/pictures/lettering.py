@@ -16,7 +16,7 @@ EDGE_SHARE, LETTER_SHARE = 0.03, 0.033
 """Of the picture's height: the free edge, and the size of letters."""
 PANEL_OPACITY = 215
 STEP = 3
-"""Between the levels of a PNG file's colours: nobody sees it, and two fifths of the bytes are saved.
+"""Between the levels of a PNG file's colours: it is not seen, and the file is much smaller.
 It divides 255, so that white stays white."""
 
 
