@@ -69,8 +69,8 @@ def _check_row(check: Check, *, published: bool, remarked: bool) -> list[Text]:
 def _remark(check: Check) -> Text:
     """What a value is relative to, and why it is missing; a known failure in its author's words."""
     over = say("relative to {metric}", metric=check.over) if check.over else ""
-    ours = check.verdict == "not_measured"
-    return separated([over, recorded(check.reason) if ours else check.reason], "; ")
+    theirs = check.verdict == "fail-known"
+    return separated([over, check.reason if theirs else recorded(check.reason)], "; ")
 
 
 def bounds(low: float | None, high: float | None) -> Text:

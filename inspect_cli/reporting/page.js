@@ -4,6 +4,7 @@
 (function () {
   const root = document.documentElement;
   const template = JSON.parse(document.getElementById("plot-template").textContent);
+  const dictionary = JSON.parse(document.getElementById("plot-words").textContent);
   const coarse = window.matchMedia("(pointer: coarse)").matches;
   const hovers = window.matchMedia("(hover: hover)").matches;
   const buttons2d = [["toImage", "zoom2d", "pan2d", "resetScale2d"]];
@@ -41,6 +42,8 @@
     await Plotly.newPlot(plot, figure.data, figure.layout, {
       responsive: true,
       displaylogo: false,
+      locale: root.lang,
+      locales: { [root.lang]: { dictionary: dictionary } },
       // The wheel belongs to the page; zooming in space is a button.
       scrollZoom: false,
       displayModeBar: hovers ? "hover" : false,

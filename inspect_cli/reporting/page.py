@@ -14,6 +14,20 @@ from inspect_cli.reporting.markup import Markup, data_script, element, joined
 from inspect_cli.reporting.palette import css_variables, plot_template
 from inspect_cli.reporting.text import say
 
+PLOT_WORDS = (
+    say("Download plot as a PNG"),
+    say("Zoom"),
+    say("Pan"),
+    say("Reset axes"),
+    say("Orbital rotation"),
+    say("Reset camera to default"),
+    say("Double-click to zoom back out"),
+    say("Taking snapshot - this may take a few seconds"),
+    say("Snapshot succeeded"),
+    say("Sorry, there was a problem downloading your snapshot!"),
+)
+"""What plotly itself says on this page, by the keys of its dictionaries."""
+
 
 def page(
     title: str,
@@ -36,6 +50,7 @@ def page(
         element("nav", *links, aria_label=label),
         element("main", *sections),
         data_script(plot_template(), id="plot-template"),
+        data_script({w.template: language.plain(w) for w in PLOT_WORDS}, id="plot-words"),
         *(element("script", Markup(script)) for script in scripts),
     ]
     head = joined(

@@ -45,7 +45,8 @@ RECORDED: tuple[Said, ...] = (
     say("off target: the tool touched the surface too far from its point"),
     say("the flight was aborted"),
     say("reason {code}"),
-    # Why a metric is not measured.
+    # Why a metric is not measured, and what a check that passes has to say.
+    say("marked as a known failure, but it holds"),
     say("the log has no {topic}"),
     say("the log has nothing on {topic}"),
     say("the log holds numbers that are not finite"),
@@ -53,7 +54,13 @@ RECORDED: tuple[Said, ...] = (
     say("{topic} and {other} are up to {apart} s apart; they must share ticks within {limit} s"),
     say("f_normal on {topic} is not known throughout the flight"),
     say("it belongs to a single flight and is in the report of each"),
+    say("it was not measured"),
     say("there is no metric '{name}'"),
+    say("there is no metric '{name}'; did you mean '{other}'?"),
+    say("it compares with mission '{name}', which only `inspect regress` flies beside it"),
+    say("mission '{name}' was not flown with the same seed"),
+    say("in mission '{name}': {why}"),
+    say("'{name}' is zero in mission '{other}'"),
     say("sortie {n}: {why}"),
     say("{name} is zero in every sortie"),
     say("the plan has nothing to touch"),

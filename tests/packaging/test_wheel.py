@@ -23,7 +23,8 @@ def test_it_carries_missions_platforms_schemas_and_pages(wheel: Path, root: Path
         files = [path for path in (root / folder).rglob("*") if path.is_file()]
         assert files
         assert {f"inspect_cli/builtin/{path.relative_to(root)}" for path in files} <= names
-    data = [p for p in (root / "inspect_cli").rglob("*") if p.suffix in (".json", ".css", ".js")]
+    kinds = (".json", ".css", ".js", ".po")
+    data = [p for p in (root / "inspect_cli").rglob("*") if p.suffix in kinds]
     assert {str(path.relative_to(root)) for path in data} <= names
     modules = (root / "inspect_cli").rglob("*.py")
     assert {str(path.relative_to(root)) for path in modules} <= names

@@ -13,11 +13,12 @@ from example_flights import Flight, spoil
 from experiment_flights import drawing, force_evaluation, hold, servoing
 from report_pages import Page, Reported
 from said_texts import names, reasons, said
-from visible_words import Pseudo, foreign, left_over, shown
+from visible_words import Pseudo, foreign, left_over, shown, visible
 
 from inspect_cli import cli
 from inspect_cli.commands.study import STUDIES
 from inspect_cli.metrics.evaluate import evaluate
+from inspect_cli.metrics.flight import Flight as Logged
 from inspect_cli.metrics.points import point_results
 from inspect_cli.records import InvalidReason, Reading
 from inspect_cli.reporting.content import Document
@@ -70,22 +71,18 @@ def test_every_sentence_of_the_source_is_translated(root: Path, code: str) -> No
 def test_what_results_say_is_known_again(root: Path, fly: Fly) -> None:
     found = reasons(root / "inspect_cli" / "metrics")
     assert len(found) > 30
+    found.remove("there is no metric '1'1")  # the last value is a clause or nothing
+    found |= {"there is no metric 'a.b'", "there is no metric 'a.b'; did you mean 'a.c'?"}
     assert [text for text in sorted(found) if not isinstance(recorded(text), Said)] == []
     flight = fly(1, len(InvalidReason))
     for k, reason in enumerate(InvalidReason):
         spoil(flight, k, reason)
-    points = point_results(evaluated(flight))
+    points = point_results(Logged(flight.log()))
     told = [ReadPoint(point, None).reason for point in points]
     assert all(isinstance(text, Said) for text in told)
     assert "Kraft: sie blieb nicht 2 s lang bei 1 N" in map(language("de").plain, told)
     # In English every one of them reads as it was written.
     assert list(map(language("en").plain, told)) == [point.reason for point in points]
-
-
-def evaluated(flight: Flight):
-    from inspect_cli.metrics.flight import Flight as Measured
-
-    return Measured(flight.log())
 
 
 def test_what_somebody_else_wrote_stays_as_it_is() -> None:
@@ -216,8 +213,9 @@ def test_german_has_its_own_signs(fly: Fly, report: Report, tmp_path: Path) -> N
         assert words in page.text, words
     # No point stands between two digits but in what is not ours.
     kept = {"it presses with 1.8 N", *foreign(flight)}
-    texts = re.sub("|".join(map(re.escape, sorted(kept, key=len, reverse=True))), "", page.text)
-    assert re.findall(r".{20}\d\.\d.{20}", texts) == []
+    ours = re.compile("|".join(map(re.escape, sorted(kept, key=len, reverse=True))))
+    texts = [ours.sub("", re.sub(r"%\{[^}]*\}", "", text)) for text in visible(page)]
+    assert [text for text in texts if re.search(r"\d\.\d", text)] == []
     assert (tmp_path / "readings.csv").read_bytes() == readings
 
 
@@ -234,7 +232,7 @@ def test_numbers_and_plurals() -> None:
 
 def test_the_command_line_offers_the_languages(capsys: pytest.CaptureFixture[str]) -> None:
     assert cli.run(["report", "--help"]) == 0
-    assert f"[{'|'.join(LANGUAGES)}]" in capsys.readouterr().out
+    assert "--language" in capsys.readouterr().out
     assert cli.run(["report", "nowhere", "--language", "fr"]) == 2
     refused = capsys.readouterr().err
     assert all(f"'{code}'" in refused for code in LANGUAGES)

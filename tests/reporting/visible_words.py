@@ -14,6 +14,7 @@ from example_flights import Flight
 from report_pages import Page
 
 from inspect_cli.metrics.catalogue import METRICS
+from inspect_cli.records import CORE_RECORDS
 from inspect_cli.reporting.language import Language, language, pieces
 from inspect_cli.reporting.published import PUBLISHED, SOURCE
 from inspect_cli.reporting.text import Said
@@ -36,8 +37,8 @@ UNITS = {
     "cm",
     "Ω",
 }
-SYMBOLS = {*"abuvxyzEFRfτθ", "Δ", "x_B", "z_B", "x_T", "K_I", "v", "f_x", "f_y", "f_z", "e"}
-NAMES = {"ASTM", "SHA", "RMS", "u", "v"}
+SYMBOLS = {*"abuvxyzEFRfτθ", "Δ", "K", "K_I", "e"}
+NAMES = {"ASTM", "C", "SHA", "RMS"}
 """What every language writes alike: units, symbols, names of standards."""
 SHOWN_KEYS = {"text", "title", "name", "ticktext", "customdata", "hovertemplate", "x", "y"}
 
@@ -76,26 +77,21 @@ def foreign(flight: Flight) -> set[str]:
         found |= {surface.name, surface.source, surface.fit.method if surface.fit else ""}
     found |= {event.text for event in log.events} | {flight.status_reason}
     found |= {*log.attachments, *log.versions, *log.versions.values(), *METRICS}
-    found |= set(re.findall(r"/[a-z_/]+", " ".join(_topics())))
+    found |= {record.topic for record in CORE_RECORDS}
     return found - {""}
-
-
-def _topics() -> Iterator[str]:
-    from inspect_cli.records import CORE_RECORDS
-
-    return (record.topic for record in CORE_RECORDS)
 
 
 def left_over(page: Page, others: set[str]) -> list[str]:
     """Every visible text with a word that nobody has translated, the word first."""
-    places = {f"(§\u00a0{row.section}" for row in PUBLISHED.values()}
-    places |= {f"{row.section}" for row in PUBLISHED.values()} | {"IV"}
-    ours = sorted(others | places, key=len, reverse=True)
+    places = {row.section for row in PUBLISHED.values()} | {row.table for row in PUBLISHED.values()}
+    ours = sorted((others | places) - {""}, key=len, reverse=True)
     pattern = re.compile("|".join(rf"(?<!\w){re.escape(text)}(?!\w)" for text in ours))
-    allowed = UNITS | SYMBOLS | NAMES | {"C"}
+    allowed = UNITS | SYMBOLS | NAMES
     found = []
-    for text in _visible(page):
-        rest = re.sub(r"<[^>]*>|%\{[^}]*\}|\b[0-9a-f]{64}\b", " ", shown(pattern.sub(" ", text)))
+    for text in visible(page):
+        rest = re.sub(
+            r"<sub>\w</sub>|<[^>]*>|%\{[^}]*\}|\b[0-9a-f]{64}\b", " ", shown(pattern.sub(" ", text))
+        )
         words = set(re.findall(r"[^\W\d_]+(?:_[^\W\d_]+)?", rest)) - allowed
         found += [f"{word}: {text[:120]}" for word in sorted(words)]
     return found
@@ -106,7 +102,7 @@ def shown(text: str) -> str:
     return re.sub(r"⟦[^⟦⟧]*⟧", "", text)
 
 
-def _visible(page: Page) -> Iterator[str]:
+def visible(page: Page) -> Iterator[str]:
     reader = _Reader()
     reader.feed(page.source)
     yield from reader.texts
