@@ -1,0 +1,73 @@
+"""Words in a drawing, line by line, with a halo where they lie upon other things."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from matplotlib.axes import Axes
+from matplotlib.patheffects import Stroke
+
+from inspect_cli.reporting.plot_text import label_lines
+
+PT_PER_PX = 0.62
+"""A thousand pixels of a screen are 170 mm of paper, but letters must not shrink that far."""
+LINE_HEIGHT = 1.2
+LEAST_PT = 6.0
+
+
+def points(pixels: float) -> float:
+    """A length on the screen as one on paper, in typographic points."""
+    return PT_PER_PX * pixels
+
+
+def font_points(pixels: float) -> float:
+    """The size of a letter on paper; none is too small to read."""
+    return max(LEAST_PT, points(pixels))
+
+
+def write(
+    ax: Axes,
+    label: object,
+    place: tuple[float, float],
+    *,
+    coordinates: Any = "data",
+    shift: tuple[float, float] = (0.0, 0.0),
+    ha: str = "center",
+    va: str = "bottom",
+    size: float = 7.0,
+    colour: Any = "black",
+    halo: bool = False,
+    angle: float = 0.0,
+) -> None:
+    """Write a label at a place of the axes, ``shift`` points beside it.
+
+    Each line is text of its own, because one of them may be bold. The halo is a drawing beneath
+    the text, which itself stays text.
+    """
+    lines = label_lines(label)
+    step = LINE_HEIGHT * size
+    height = step * (len(lines) - 1)
+    top = {"bottom": height, "center": 0.5 * height, "top": 0.0}[va]
+    for k, line in enumerate(lines):
+        if not line.text.strip():
+            continue
+        offset = (shift[0], shift[1] + top - k * step)
+        for beneath in (True, False) if halo else (False,):
+            text = ax.annotate(
+                line.text,
+                place,
+                offset,
+                xycoords=coordinates,
+                textcoords="offset points",
+                ha=ha,
+                va=va,
+                fontsize=size,
+                color="white" if beneath else colour,
+                fontweight="bold" if line.bold else "normal",
+                rotation=angle,
+                parse_math=line.formula,
+                annotation_clip=False,
+                zorder=5.0 if beneath else 6.0,
+            )
+            if beneath:
+                text.set_path_effects([Stroke(linewidth=1.8, foreground="white")])
