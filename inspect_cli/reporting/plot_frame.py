@@ -26,7 +26,7 @@ from inspect_cli.reporting.text import number, significant
 TICK_PT = 7.0
 TITLE_PT = 7.5
 FRAME_COLOUR = "#8c96a0"
-TICK_EVERY_MM = {True: 17.0, False: 8.0}
+TICK_EVERY_MM = {True: 17.0, False: 6.0}
 """Between ticks of a horizontal and of a vertical axis, about."""
 BAR_SHADES = 480
 

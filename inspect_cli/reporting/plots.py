@@ -41,7 +41,8 @@ DRAWN = frozenset({"scatter", "scattergl", "bar", "contour", "heatmap"})
 MM_PER_PX = 0.2
 """Of a figure's height; it is as wide as the page has room for."""
 MM_PER_INCH = 25.4
-LEGEND_GAP_MM = 2.0
+LEGEND_GAP_MM = 1.0
+"""Above and below the legend."""
 BAR_MM = 12.0
 """What a colour bar takes below the drawing, its marks included."""
 SCALE_BAR_MM = 9.0
@@ -176,7 +177,7 @@ class _Drawing:
         """Lay the sheet out, to scale if it is a map, and write it."""
         legend_mm = 0.0
         if self.legend is not None:
-            legend_mm = self._mm(self.legend.get_window_extent().height) + LEGEND_GAP_MM
+            legend_mm = self._mm(self.legend.get_window_extent().height) + 2.0 * LEGEND_GAP_MM
         below_mm = BAR_MM * len(self.bars)
         is_map = has_equal_scales(self.layout)
         below_mm += SCALE_BAR_MM if is_map else 0.0
@@ -188,13 +189,13 @@ class _Drawing:
                 scale, wide, high = self._to_scale(wide, max_height_mm - around)
                 height_mm = high + around
             self._place(margins, wide, high, below_mm, height_mm)
+            if self.legend is not None:
+                self.legend.set_bbox_to_anchor((0.0, 1.0 - LEGEND_GAP_MM / height_mm))
             margins = self._measured(margins, wide, high, below_mm)
         self._thin_labels()
         if scale is not None:
-            place = (margins.left, below_mm - SCALE_BAR_MM + 2.5)
-            draw_scale_bar(
-                self.sheet, scale, place, (self.width_mm, height_mm), self.language
-            )
+            size = (self.width_mm, height_mm)
+            draw_scale_bar(self.sheet, scale, (margins.left, 1.0), size, self.language)
         return Plot(self._written(), self.width_mm, height_mm, scale)
 
     def _to_scale(self, wide: float, high: float) -> tuple[MapScale, float, float]:
