@@ -1,4 +1,4 @@
-"""Axes of a plotly layout: where they stand, from where to where they go, what is on their ticks."""
+"""Axes of a plotly layout: where they stand, how far they go, what is on their ticks."""
 
 from __future__ import annotations
 

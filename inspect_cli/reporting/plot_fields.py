@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from itertools import pairwise
 from typing import Any
 
 import numpy as np
@@ -14,8 +15,8 @@ from inspect_cli.reporting.figure import Json
 from inspect_cli.reporting.palette import INK
 from inspect_cli.reporting.plot_axes import column
 from inspect_cli.reporting.plot_labels import points
+from inspect_cli.reporting.plot_marks import DASHES
 from inspect_cli.reporting.plot_text import rgba
-from inspect_cli.reporting.plot_traces import DASHES, band_colours
 from inspect_cli.spatial.arrays import Points, Vector
 
 SHADES = 512
@@ -100,9 +101,10 @@ def contour(ax: Axes, trace: Json, layout: Json, x: Vector, y: Vector) -> None:
 
 def _levels(settings: Json, scale: Json) -> Vector:
     if "size" not in settings:
-        return np.linspace(scale["cmin"], scale["cmax"], 16)
+        return np.linspace(float(scale["cmin"]), float(scale["cmax"]), 16)
     start, end, size = (float(settings[key]) for key in ("start", "end", "size"))
-    return start + size * np.arange(max(1, round((end - start) / size)) + 1)
+    levels: Vector = start + size * np.arange(max(1, round((end - start) / size)) + 1.0)
+    return levels
 
 
 def heatmap(ax: Axes, trace: Json, layout: Json, x: Vector, y: Vector) -> None:
@@ -127,7 +129,7 @@ def _edges(centres: Vector, n: int) -> Vector:
     if len(centres) == n + 1:
         return centres
     if n == 1:
-        return centres[0] + np.array([-0.5, 0.5])
+        return np.array([centres[0] - 0.5, centres[0] + 0.5])
     between = 0.5 * (centres[1:] + centres[:-1])
     first, last = 1.5 * centres[0] - 0.5 * centres[1], 1.5 * centres[-1] - 0.5 * centres[-2]
     edges: Vector = np.concatenate([[first], between, [last]])
@@ -153,13 +155,23 @@ def bar_scales(traces: Sequence[Json], layout: Json) -> list[Json]:
 
 def coloured(trace: Json, layout: Json) -> Json:
     """The trace with the numbers among its markers' colours looked up on their scale."""
-    marker = trace.get("marker", {})
+    marker: Json = trace.get("marker", {})
     colours = column(marker["color"]) if isinstance(marker.get("color"), list | dict) else []
     if not any(isinstance(colour, int | float) for colour in colours):
         return trace
-    scale = layout.get(str(marker.get("coloraxis", "")), marker)
+    scale: Json = layout.get(str(marker.get("coloraxis", "")), marker)
     known = [float(c) for c in colours if isinstance(c, int | float)]
     low, high = float(scale.get("cmin", min(known))), float(scale.get("cmax", max(known)))
     shares = np.array([((c or 0.0) - low) / ((high - low) or 1.0) for c in colours])
     found = scale_colours({"colorscale": scale.get("colorscale", "Viridis")}, shares)
     return {**trace, "marker": {**marker, "color": [to_hex(c, keep_alpha=True) for c in found]}}
+
+
+def band_colours(scale: Sequence[Sequence[Any]], shares: Vector) -> list[Any]:
+    """Colours at shares from 0 to 1 of a plotly colour scale, linear in RGB between its stops."""
+    stops = [(float(share), np.array(rgba(str(colour)))) for share, colour in scale]
+    found = []
+    for share in np.clip(shares, stops[0][0], stops[-1][0]):
+        (a, first), (b, second) = next((p, q) for p, q in pairwise(stops) if p[0] <= share <= q[0])
+        found.append(first if b == a else first + (share - a) / (b - a) * (second - first))
+    return found

@@ -9,9 +9,16 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure as Sheet
 from matplotlib.legend import Legend
+from matplotlib.lines import Line2D
 from matplotlib.patches import Rectangle
-from matplotlib.transforms import Bbox, BboxTransformTo, Transform, blended_transform_factory
-from matplotlib.transforms import TransformedBbox
+from matplotlib.ticker import NullLocator
+from matplotlib.transforms import (
+    Bbox,
+    BboxTransformTo,
+    Transform,
+    TransformedBbox,
+    blended_transform_factory,
+)
 
 from inspect_cli.reporting.figure import Json
 from inspect_cli.reporting.language import Language
@@ -19,8 +26,9 @@ from inspect_cli.reporting.palette import GRID, INK, MUTED
 from inspect_cli.reporting.plot_axes import Axis, decades, round_ticks
 from inspect_cli.reporting.plot_fields import scale_colours
 from inspect_cli.reporting.plot_labels import font_points, points, write
+from inspect_cli.reporting.plot_marks import DASHES, legend_handle
 from inspect_cli.reporting.plot_text import one_line, rgba
-from inspect_cli.reporting.plot_traces import DASHES, is_shown, legend_handle
+from inspect_cli.reporting.plot_traces import is_shown
 from inspect_cli.reporting.text import number, significant
 
 TICK_PT = 7.0
@@ -37,7 +45,7 @@ def set_ticks(ax: Axes, axis: Axis, length_mm: float, language: Language, *, sho
     low, high = ax.get_xlim() if axis.horizontal else ax.get_ylim()
     places, labels = _ticks(axis, low, high, length_mm, language)
     kept = [k for k, p in enumerate(places) if min(low, high) <= p <= max(low, high)]
-    mine.set_minor_locator(_none())
+    mine.set_minor_locator(NullLocator())
     mine.set_ticks([places[k] for k in kept])
     shown = shown and bool(axis.settings.get("showticklabels", True))
     mine.set_ticklabels([labels[k] if shown else "" for k in kept], parse_math=False)
@@ -49,12 +57,6 @@ def set_ticks(ax: Axes, axis: Axis, length_mm: float, language: Language, *, sho
     if shown and text:
         line = one_line(text)
         mine.set_label_text(line.text, fontsize=TITLE_PT, color=INK, parse_math=line.formula)
-
-
-def _none() -> Any:
-    from matplotlib.ticker import NullLocator
-
-    return NullLocator()
 
 
 def _ticks(
@@ -142,8 +144,6 @@ def add_shape(ax_of: Mapping[tuple[str, str], Axes], paper: Paper, shape: Json) 
             linestyle=dash,
         )
     elif kind == "line":
-        from matplotlib.lines import Line2D
-
         artist = Line2D(
             [ends["x0"], ends["x1"]],
             [ends["y0"], ends["y1"]],
@@ -202,7 +202,9 @@ def add_remark(ax_of: Mapping[tuple[str, str], Axes], paper: Paper, remark: Json
     )
 
 
-def add_legend(sheet: Sheet, traces: Sequence[Json], layout: Json, width_pt: float) -> Legend | None:
+def add_legend(
+    sheet: Sheet, traces: Sequence[Json], layout: Json, width_pt: float
+) -> Legend | None:
     """The names of the traces above the drawing, in as many columns as fit its width."""
     named = [t for t in traces if t.get("name") and t.get("showlegend", True) and is_shown(t)]
     named = [t for t in named if t["type"] in ("scatter", "bar")]
@@ -251,9 +253,7 @@ def draw_bar(ax: Axes, scale: Json, language: Language) -> None:
     labels = [one_line(t).text for t in given] if given else None
     ax.set_yticks([])
     ax.set_xticks(places)
-    ax.set_xticklabels(
-        labels or [language.plain(significant(v)) for v in places], parse_math=False
-    )
+    ax.set_xticklabels(labels or [language.plain(significant(v)) for v in places], parse_math=False)
     ax.tick_params(length=2.0, width=0.5, color=FRAME_COLOUR, labelsize=TICK_PT, pad=1.5)
     ax.set_xlim(low, high)
     for spine in ax.spines.values():

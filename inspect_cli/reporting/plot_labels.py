@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import Any
 
 from matplotlib.axes import Axes
 from matplotlib.patheffects import Stroke
+from matplotlib.text import Annotation
+from matplotlib.transforms import Bbox
 
 from inspect_cli.reporting.plot_text import label_lines
 
@@ -13,6 +16,8 @@ PT_PER_PX = 0.62
 """A thousand pixels of a screen are 170 mm of paper, but letters must not shrink that far."""
 LINE_HEIGHT = 1.2
 LEAST_PT = 6.0
+TOUCHING = 0.9
+"""Share of a label's box that has to stay free of others."""
 
 
 def points(pixels: float) -> float:
@@ -38,13 +43,13 @@ def write(
     colour: Any = "black",
     halo: bool = False,
     angle: float = 0.0,
-) -> None:
-    """Write a label at a place of the axes, ``shift`` points beside it.
+) -> list[Annotation]:
+    """Write a label at a place of the axes, ``shift`` points beside it; return its pieces.
 
     Each line is text of its own, because one of them may be bold. The halo is a drawing beneath
     the text, which itself stays text.
     """
-    lines = label_lines(label)
+    lines, written = label_lines(label), []
     step = LINE_HEIGHT * size
     height = step * (len(lines) - 1)
     top = {"bottom": height, "center": 0.5 * height, "top": 0.0}[va]
@@ -71,3 +76,20 @@ def write(
             )
             if beneath:
                 text.set_path_effects([Stroke(linewidth=1.8, foreground="white")])
+            written.append(text)
+    return written
+
+
+def thin_out(labels: Sequence[Sequence[Annotation]]) -> None:
+    """Hide each label that would lie upon one before it: none of both could be read."""
+    kept: list[Bbox] = []
+    for pieces in labels:
+        boxes = [piece.get_window_extent() for piece in pieces]
+        if not boxes:
+            continue
+        own = Bbox.union(boxes).shrunk(TOUCHING, TOUCHING)
+        if any(own.overlaps(other) for other in kept):
+            for piece in pieces:
+                piece.set_visible(False)
+        else:
+            kept.append(own)

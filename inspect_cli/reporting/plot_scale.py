@@ -12,11 +12,7 @@ from inspect_cli.reporting.language import Language
 from inspect_cli.reporting.palette import INK
 from inspect_cli.reporting.text import Text, number, say
 
-SCALES = tuple(
-    m * 10**power
-    for power in range(6)
-    for m in (1, 2, 5, *((2.5,) if power else ()))
-)
+SCALES = tuple(m * 10**power for power in range(6) for m in (1, 2, 5, *((2.5,) if power else ())))
 """1 : 1, 1 : 2, 1 : 5, 1 : 10, 1 : 20, 1 : 25, 1 : 50 and so on, ISO 5455's with 25 and 250."""
 BAR_MM = (18.0, 50.0)
 """Least and greatest length of a scale bar on paper."""

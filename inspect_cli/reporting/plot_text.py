@@ -59,8 +59,7 @@ def one_line(label: object) -> TextLine:
     lines = label_lines(label)
     formula = any(line.formula for line in lines)
     texts = (
-        line.text if line.formula or not formula else _plain_in_formula(line.text)
-        for line in lines
+        line.text if line.formula or not formula else _plain_in_formula(line.text) for line in lines
     )
     return TextLine(" ".join(texts), formula=formula)
 

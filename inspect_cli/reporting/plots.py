@@ -18,6 +18,7 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure as Sheet
+from matplotlib.text import Annotation
 
 from inspect_cli.reporting.figure import Figure, Json
 from inspect_cli.reporting.language import Language
@@ -32,6 +33,7 @@ from inspect_cli.reporting.plot_frame import (
     plain_frame,
     set_ticks,
 )
+from inspect_cli.reporting.plot_labels import thin_out
 from inspect_cli.reporting.plot_scale import MapScale, draw_scale_bar, has_equal_scales, scale_for
 from inspect_cli.reporting.plot_traces import bars, is_shown, measure, scatter, slots
 from inspect_cli.spatial.arrays import Vector
@@ -125,6 +127,7 @@ class _Drawing:
             for t in traces
         ]
         self.panels: dict[tuple[str, str], Axes] = {}
+        self.labels: list[list[Annotation]] = []
         for pair in panels_of(traces):
             self.panels[pair] = self.sheet.add_axes((0.1, 0.1, 0.8, 0.8), label="-".join(pair))
         self._fill()
@@ -149,9 +152,9 @@ class _Drawing:
                 ax.spines["right"].set_visible(True)
         bar_traces = [t for t in self.traces if t["type"] == "bar"]
         by_bar = dict(zip(map(id, bar_traces), slots(bar_traces, self.layout), strict=True))
-        for trace, (x, y) in zip(self.traces, self.places, strict=True):
+        for trace, place in zip(self.traces, self.places, strict=True):
             ax = self.panels[trace.get("xaxis", "x"), trace.get("yaxis", "y")]
-            self._trace(ax, trace, x, y, by_bar.get(id(trace), (0.0, 0.0)))
+            self._trace(ax, trace, *place, by_bar.get(id(trace), (0.0, 0.0)))
         for (x_name, y_name), ax in self.panels.items():
             ax.set_xlim(limits(self.axes[x_name], self.axes))
             ax.set_ylim(limits(self.axes[y_name], self.axes))
@@ -165,7 +168,7 @@ class _Drawing:
     ) -> None:
         match trace["type"]:
             case "scatter":
-                scatter(ax, trace, x, y)
+                self.labels += scatter(ax, trace, x, y)
             case "bar":
                 bars(ax, trace, x, y, slot)
             case "contour":
@@ -192,7 +195,8 @@ class _Drawing:
             if self.legend is not None:
                 self.legend.set_bbox_to_anchor((0.0, 1.0 - LEGEND_GAP_MM / height_mm))
             margins = self._measured(margins, wide, high, below_mm)
-        self._thin_labels()
+        self._thin_ticks()
+        thin_out(self.labels)
         if scale is not None:
             size = (self.width_mm, height_mm)
             draw_scale_bar(self.sheet, scale, (margins.left, 1.0), size, self.language)
@@ -233,11 +237,10 @@ class _Drawing:
     def _ticks(self, ax: Axes, axis: Axis, length_mm: float, across: str) -> None:
         set_ticks(ax, axis, length_mm, self.language, shown=axis.anchor == across)
 
-    def _measured(
-        self, margins: Margins, wide: float, high: float, below_mm: float
-    ) -> Margins:
+    def _measured(self, margins: Margins, wide: float, high: float, below_mm: float) -> Margins:
         """What the words around the panels really take."""
-        boxes = [ax.get_tightbbox() for ax in self.panels.values()]
+        found = [ax.get_tightbbox() for ax in self.panels.values()]
+        boxes = [box for box in found if box is not None]
         left = self._mm(min(box.x0 for box in boxes))
         right = self._mm(max(box.x1 for box in boxes))
         bottom = self._mm(min(box.y0 for box in boxes))
@@ -252,7 +255,7 @@ class _Drawing:
     def _mm(self, pixels: float) -> float:
         return float(pixels) / float(self.sheet.dpi) * MM_PER_INCH
 
-    def _thin_labels(self) -> None:
+    def _thin_ticks(self) -> None:
         """Of ticks' labels that would touch, the later is left out."""
         for ax in [*self.panels.values(), *(bar for bar, _ in self.bars)]:
             last = -np.inf

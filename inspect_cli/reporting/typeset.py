@@ -92,7 +92,8 @@ def _compiled(files: dict[str, bytes], form: Any, ppi: float | None = None) -> l
     folder = Path(matplotlib.get_data_path()) / "fonts" / "ttf"
     try:
         fonts = typst.Fonts(include_system_fonts=False, font_paths=[folder])
-        compiler = typst.Compiler(files, font_paths=fonts, ignore_system_fonts=True)
+        program: Any = files
+        compiler = typst.Compiler(program, font_paths=fonts, ignore_system_fonts=True)
         made = compiler.compile(format=form, ppi=ppi, timestamp=0)
     except (RuntimeError, OSError, ValueError) as error:
         raise EnvironmentFault(
