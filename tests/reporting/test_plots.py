@@ -76,8 +76,19 @@ def markers_mm(plot: Plot) -> np.ndarray:
     """Where the markers stand on paper, (n, 2) mm from the upper left corner."""
     groups = ET.fromstring(plot.svg).iter(f"{SVG}g")
     scattered = [g for g in groups if str(g.get("id")).startswith("PathCollection")]
-    placed = [use for group in scattered for use in group.iter(f"{SVG}use")]
-    return MM_PER_PT * np.array([[float(u.get("x", "")), float(u.get("y", ""))] for u in placed])
+    centres = [_centre(e) for g in scattered for e in g.iter() if e.get("x") or e.get("clip-path")]
+    return MM_PER_PT * np.array([c for c in centres if c is not None])
+
+
+def _centre(element: ET.Element) -> Any:
+    """Of a marker, be it a copy of a shape or a shape of its own; None for what holds them."""
+    if element.tag == f"{SVG}use":
+        return [float(element.get("x", "")), float(element.get("y", ""))]
+    if element.tag != f"{SVG}path":
+        return None
+    outline = [float(n) for n in re.findall(r"-?[\d.]+", element.get("d", ""))]
+    xy = np.array(outline).reshape(-1, 2)
+    return 0.5 * (xy.min(axis=0) + xy.max(axis=0))
 
 
 def test_every_figure_of_a_flight_can_be_drawn(figures: dict[str, Figure]) -> None:
