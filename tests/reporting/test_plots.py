@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 import re
 import xml.etree.ElementTree as ET
+from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
@@ -76,19 +77,16 @@ def markers_mm(plot: Plot) -> np.ndarray:
     """Where the markers stand on paper, (n, 2) mm from the upper left corner."""
     groups = ET.fromstring(plot.svg).iter(f"{SVG}g")
     scattered = [g for g in groups if str(g.get("id")).startswith("PathCollection")]
-    centres = [_centre(e) for g in scattered for e in g.iter() if e.get("x") or e.get("clip-path")]
-    return MM_PER_PT * np.array([c for c in centres if c is not None])
+    return MM_PER_PT * np.array([c for group in scattered for c in _centres(group)])
 
 
-def _centre(element: ET.Element) -> Any:
-    """Of a marker, be it a copy of a shape or a shape of its own; None for what holds them."""
-    if element.tag == f"{SVG}use":
-        return [float(element.get("x", "")), float(element.get("y", ""))]
-    if element.tag != f"{SVG}path":
-        return None
-    outline = [float(n) for n in re.findall(r"-?[\d.]+", element.get("d", ""))]
-    xy = np.array(outline).reshape(-1, 2)
-    return 0.5 * (xy.min(axis=0) + xy.max(axis=0))
+def _centres(group: ET.Element) -> Iterator[Any]:
+    """Of markers, be they copies of a shape or shapes of their own."""
+    for use in group.iter(f"{SVG}use"):
+        yield [float(use.get("x", "")), float(use.get("y", ""))]
+    for path in group.findall(f"{SVG}path"):
+        xy = np.array([float(n) for n in re.findall(r"-?[\d.]+", path.get("d", ""))]).reshape(-1, 2)
+        yield 0.5 * (xy.min(axis=0) + xy.max(axis=0))
 
 
 def test_every_figure_of_a_flight_can_be_drawn(figures: dict[str, Figure]) -> None:
