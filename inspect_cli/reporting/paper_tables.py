@@ -34,8 +34,9 @@ SHORT = 12.0
 """Letters of a cell that is never broken."""
 MARK_LETTERS = 2.4
 """What the mark before a word takes."""
-UNBROKEN = 600
-"""Letters; a row with a longer cell may be broken over pages, others stay together."""
+UNBROKEN = 400
+"""Letters; a row with a longer cell may be broken over pages, others stay together. A longer
+heading is not repeated on each page, of which it would leave nothing."""
 
 
 @dataclass(frozen=True)
@@ -58,6 +59,7 @@ def paper_table(table: Table, language: Language) -> Json:
         "caption": runs(table.caption, language),
         "wide": table.wide,
         "size": size,
+        "repeated": all(len(language.plain(c.heading)) < UNBROKEN for c in table.columns),
         "landscape": room_mm == FLIPPED_MM,
         "widths": _widths(extents, size, room_mm, CELL_INSET_MM[table.wide]),
         "columns": [

@@ -44,9 +44,11 @@ def runs(text: Text, language: Language) -> list[Json]:
         case Marked():
             return [{"is": text.role, "body": runs(text.text, language)}]
         case Chip():
-            return [{"is": "chip", "kind": text.kind, "body": runs(text.text, language)}]
+            return [{"is": "chip", "kind": printable(text.kind), "body": runs(text.text, language)}]
         case Badge():
-            return [{"is": "badge", "kind": text.kind, "body": runs(text.text, language)}]
+            return [
+                {"is": "badge", "kind": printable(text.kind), "body": runs(text.text, language)}
+            ]
         case Link():
             return runs(text.text, language)
 

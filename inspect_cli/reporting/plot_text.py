@@ -9,10 +9,12 @@ from dataclasses import dataclass
 
 from matplotlib.colors import to_rgba
 
-from inspect_cli.reporting.printable import printable
+from inspect_cli.reporting.printable import printable, shortened
 
 TAG = re.compile(r"<(/?)(br|b|i|em|strong|sub|sup)\s*/?>", re.IGNORECASE)
 FUNCTIONAL = re.compile(r"rgba?\(([^)]*)\)")
+LONGEST_LABEL = 80
+"""Characters; a longer label would push the drawing off its sheet."""
 PLAIN_INDEX = re.compile(r"[A-Za-z0-9]+")
 
 Rgba = tuple[float, float, float, float]
@@ -65,7 +67,7 @@ def one_line(label: object) -> TextLine:
 
 
 def _line(pieces: Sequence[tuple[str, str]], bold: bool) -> TextLine:
-    shown = [(printable(text), level) for text, level in pieces if text]
+    shown = [(shortened(printable(text), LONGEST_LABEL), level) for text, level in pieces if text]
     formula = any(level and PLAIN_INDEX.fullmatch(text) for text, level in shown)
     if not formula:
         return TextLine("".join(level + text for text, level in shown), bold)

@@ -18,16 +18,27 @@ SEAMS = frozenset("/_.,;:-=&?#@|")
 def printable(text: str) -> str:
     """The text as one line: blanks joined as HTML joins them, what has no shape replaced.
 
-    Controls, halves of surrogate pairs and the explicit controls of direction become U+FFFD;
-    letters that run from right to left keep doing so.
+    Controls, halves of surrogate pairs, numbers that are no characters and the explicit controls
+    of direction become U+FFFD; letters that run from right to left keep doing so.
     """
     return "".join(map(_shown, BLANKS.sub(" ", text)))
 
 
+def shortened(text: str, length: int) -> str:
+    """The text, its end left out where it is longer than that."""
+    return text if len(text) <= length else f"{text[: length - 1]}…"
+
+
 def _shown(character: str) -> str:
-    if character in DIRECTIONS or unicodedata.category(character) in ("Cc", "Cs"):
-        return REPLACEMENT
-    return character
+    known = unicodedata.category(character) not in ("Cc", "Cs")
+    return character if known and not _is_no_character(character) else REPLACEMENT
+
+
+def _is_no_character(character: str) -> bool:
+    """Whether Unicode keeps the number free for ever, or its effect goes beyond its own text."""
+    number = ord(character)
+    free = number & 0xFFFE == 0xFFFE or 0xFDD0 <= number <= 0xFDEF
+    return free or character in DIRECTIONS
 
 
 def breakable(text: str) -> str:

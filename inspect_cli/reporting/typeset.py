@@ -9,9 +9,10 @@ the same bytes everywhere.
 from __future__ import annotations
 
 import json
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from importlib import resources
 from pathlib import Path
+from tempfile import TemporaryDirectory
 from typing import Any
 
 import matplotlib
@@ -40,14 +41,16 @@ from inspect_cli.reporting.paper_tables import paper_table
 from inspect_cli.reporting.paper_text import runs
 from inspect_cli.reporting.plot_scale import has_equal_scales
 from inspect_cli.reporting.plots import draw
-from inspect_cli.reporting.printable import printable
+from inspect_cli.reporting.printable import printable, shortened
 from inspect_cli.reporting.text import Text, say
 
+PROGRAM = "paper.typ"
 PAGE_MM = 170.0
 """Between the margins of an upright page."""
 HALF_PAGE_MM = 82.0
 RUNNING_TITLE = 90
-"""Characters of the title at the head of a page."""
+RUNNING_HEADING = 45
+"""Characters of the title and of the section at the head of a page."""
 FONTS = ("Libertinus Serif", "DejaVu Sans", "Last Resort High-Efficiency")
 """The second has Arabic, Hebrew and signs; the last a frame for any character that none has."""
 MONO_FONTS = ("DejaVu Sans Mono", "DejaVu Sans", "Last Resort High-Efficiency")
@@ -64,37 +67,49 @@ def write_pdf(document: Document, language: Language, path: Path) -> None:
     write_whole(path, pdf(document, language))
 
 
-def pdf(document: Document, language: Language) -> bytes:
+def pdf(document: Document, language: Language, standards: Sequence[str] = ()) -> bytes:
     """The report as a PDF: A4, tagged for screen readers, without a date of its own.
+
+    ``standards`` are those that the typesetter shall hold it to, such as "ua-1".
 
     Raises:
         EnvironmentFault: the typesetter fails.
         ValueError: a figure holds something that no drawing on paper is known for.
     """
-    return _compiled(typeset_files(document, language), "pdf")[0]
+    files = typeset_files(document, language)
+    return _compiled(files, "pdf", pdf_standards=list(standards))[0]
 
 
 def pages_png(document: Document, language: Language, ppi: float = 110.0) -> list[bytes]:
     """The pages as pictures, to look at."""
-    return _compiled(typeset_files(document, language), "png", ppi)
+    return _compiled(typeset_files(document, language), "png", ppi=ppi)
 
 
 def typeset_files(document: Document, language: Language) -> dict[str, bytes]:
     """What the typesetter is given: its program, the content as JSON, and the drawings."""
     paper = _Paper(language)
     content = paper.content(document)
-    program = resources.files(__package__).joinpath("paper.typ").read_bytes()
+    program = resources.files(__package__).joinpath(PROGRAM).read_bytes()
     text = json.dumps(content, ensure_ascii=False, allow_nan=False)
-    return {"main": program, "content.json": text.encode(), **paper.files}
+    return {PROGRAM: program, "content.json": text.encode(), **paper.files}
 
 
-def _compiled(files: dict[str, bytes], form: Any, ppi: float | None = None) -> list[bytes]:
+def fonts() -> typst.Fonts:
+    """The fonts that the typesetter and matplotlib bring along."""
     folder = Path(matplotlib.get_data_path()) / "fonts" / "ttf"
+    return typst.Fonts(include_system_fonts=False, font_paths=[folder])
+
+
+def _compiled(files: dict[str, bytes], form: Any, **options: Any) -> list[bytes]:
+    """The pages in one file or in one for each; the typesetter reads from a folder of its own."""
     try:
-        fonts = typst.Fonts(include_system_fonts=False, font_paths=[folder])
-        program: Any = files
-        compiler = typst.Compiler(program, font_paths=fonts, ignore_system_fonts=True)
-        made = compiler.compile(format=form, ppi=ppi, timestamp=0)
+        with TemporaryDirectory(prefix="inspect-") as folder:
+            for name, data in files.items():
+                (Path(folder) / name).write_bytes(data)
+            compiler = typst.Compiler(
+                Path(folder) / PROGRAM, folder, font_paths=fonts(), ignore_system_fonts=True
+            )
+            made = compiler.compile(format=form, timestamp=0, **options)
     except (RuntimeError, OSError, ValueError) as error:
         raise EnvironmentFault(
             f"the report cannot be typeset: {error}",
@@ -113,11 +128,10 @@ class _Paper:
     def content(self, document: Document) -> Json:
         """The whole document."""
         cover, title = document.cover, self._plain(document.title)
-        short = title if len(title) <= RUNNING_TITLE else f"{title[: RUNNING_TITLE - 1]}…"
         return {
             "lang": self.language.code,
             "title": title,
-            "running": short,
+            "running": shortened(title, RUNNING_TITLE),
             "contents": self._plain(say("Contents")),
             "fonts": list(FONTS),
             "mono": list(MONO_FONTS),
@@ -141,6 +155,7 @@ class _Paper:
             "sections": [
                 {
                     "heading": self._runs(section.heading),
+                    "running": shortened(self._plain(section.heading), RUNNING_HEADING),
                     "blocks": [part for block in section.blocks for part in self._block(block)],
                 }
                 for section in document.sections
