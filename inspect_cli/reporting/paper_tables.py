@@ -22,7 +22,7 @@ MM_PER_PT_OF_LETTER = 0.178
 CELL_INSET_MM = {False: 3.2, True: 2.2}
 """Left and right of a cell, together."""
 SIZES = {False: (9.0, 8.0, 7.0), True: (7.5, 7.0, 6.5)}
-PROSE = 26.0
+PROSE = 22.0
 """Letters to a line that a sentence needs to be readable."""
 LONGEST_LINE = 90.0
 NARROW, BROAD = frozenset("iljftrI.,:;'|!()[]-/ "), frozenset("mwMW@%&—…")
@@ -30,7 +30,7 @@ LATIN = 0x2100
 """Beyond this, characters come from broader fonts."""
 BOLDER = 1.1
 """A heading is broader by its weight."""
-SHORT = 12.0
+SHORT = 10.0
 """Letters of a cell that is never broken."""
 MARK_LETTERS = 2.4
 """What the mark before a word takes."""
@@ -76,6 +76,21 @@ def paper_table(table: Table, language: Language) -> Json:
             for cell in row
         ],
     }
+
+
+def turned(blocks: Sequence[Json]) -> list[Json]:
+    """The blocks with those on their side put together, each with the heading that opens it."""
+    found: list[Json] = []
+    for block in blocks:
+        if not block.get("landscape"):
+            found.append(block)
+            continue
+        if found and found[-1]["is"] == "landscape":
+            found[-1]["blocks"].append(block)
+            continue
+        opening = [found.pop()] if found and found[-1]["is"] == "heading" else []
+        found.append({"is": "landscape", "blocks": [*opening, block]})
+    return found
 
 
 def _fitted(extents: Sequence[Extent], *, wide: bool) -> tuple[float, float]:
@@ -141,6 +156,6 @@ def _letters(text: str, *, even: bool = False) -> float:
         if c in BROAD or ord(c) > LATIN
         else 1.3
         if c.isupper()
-        else 1.05
+        else 0.95
         for c in text
     )

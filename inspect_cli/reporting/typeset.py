@@ -37,7 +37,7 @@ from inspect_cli.reporting.content import (
 )
 from inspect_cli.reporting.figure import Figure, Json
 from inspect_cli.reporting.language import Language
-from inspect_cli.reporting.paper_tables import paper_table
+from inspect_cli.reporting.paper_tables import paper_table, turned
 from inspect_cli.reporting.paper_text import runs
 from inspect_cli.reporting.plot_scale import has_equal_scales
 from inspect_cli.reporting.plots import draw
@@ -156,7 +156,7 @@ class _Paper:
                 {
                     "heading": self._runs(section.heading),
                     "running": shortened(self._plain(section.heading), RUNNING_HEADING),
-                    "blocks": [part for block in section.blocks for part in self._block(block)],
+                    "blocks": turned([p for block in section.blocks for p in self._block(block)]),
                 }
                 for section in document.sections
                 if section.on_paper

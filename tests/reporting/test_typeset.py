@@ -167,7 +167,7 @@ def test_paper_says_what_the_screen_says() -> None:
     assert "Diagrams" not in on_paper
     # What paper adds: contents, numbers of pages, tables and figures, signs, the drawings' words.
     added = {word for word in on_paper if word not in on_screen}
-    ours = "Contents Table Figure truth (m) – inspection report This is a film: it in the HTML •"
+    ours = "Contents Table Figure truth (m) – inspection report This is a film: it in the HTML report. •"
     own = {*ours.split(), *["⚠", "✓", "/", "."]}
     assert {w for w in added - own if not re.fullmatch(r"[−\d./]+|\.+", w)} == set()
 
@@ -209,12 +209,14 @@ def test_pages_are_upright_a4_with_their_numbers() -> None:
 def test_a_table_with_too_many_columns_lies_on_its_side() -> None:
     columns = [Column(f"Quantity {k}", "kΩ·cm", numeric=True) for k in range(24)]
     wide = Table("Wide.", columns, [[number(-12345.6, 1)] * 24] * 3, wide=True)
-    after = Paragraph("Upright again.")
-    reader = pypdf.PdfReader(io.BytesIO(pdf(document(blocks=[wide, after]), ENGLISH)))
+    blocks = [wide, Paragraph("Upright."), Heading("Wider"), wide, wide, Paragraph("And again.")]
+    reader = pypdf.PdfReader(io.BytesIO(pdf(document(blocks=blocks), ENGLISH)))
     flipped = [float(page.mediabox.width) > float(page.mediabox.height) for page in reader.pages]
-    assert flipped.count(True) == 1
-    assert not flipped[-1]
-    assert "Upright again." in reader.pages[-1].extract_text()
+    assert flipped == [False, True, False, True, False]
+    # A heading lies on the page of the table that it opens.
+    texts = [page.extract_text() for page in reader.pages]
+    for k, words_there in ((1, "Summary"), (2, "Upright."), (3, "Wider"), (4, "And again.")):
+        assert words_there in texts[k]
 
 
 def test_german_numbers_and_words() -> None:
