@@ -9,6 +9,7 @@ the same bytes everywhere.
 from __future__ import annotations
 
 import json
+import struct
 from collections.abc import Iterator, Sequence
 from importlib import resources
 from pathlib import Path
@@ -48,6 +49,8 @@ PROGRAM = "paper.typ"
 PAGE_MM = 170.0
 """Between the margins of an upright page."""
 HALF_PAGE_MM = 82.0
+PICTURE_MM = 120.0
+"""Greatest height of a picture."""
 RUNNING_TITLE = 90
 RUNNING_HEADING = 45
 """Characters of the title and of the section at the head of a page."""
@@ -219,7 +222,9 @@ class _Paper:
 
     def _picture(self, picture: Picture) -> Json:
         data = self._drawing(picture.caption, picture.description)
-        return {**data, "file": self._kept(picture.png, "png"), "width": PAGE_MM}
+        width, height = struct.unpack(">II", picture.png[16:24].ljust(8, b"\1"))
+        fitted = min(PAGE_MM, PICTURE_MM * width / max(height, 1))
+        return {**data, "file": self._kept(picture.png, "png"), "width": fitted}
 
     def _film(self, film: Film) -> Json:
         data = self._drawing(film.caption, film.description)

@@ -167,8 +167,8 @@ def test_paper_says_what_the_screen_says() -> None:
     assert "Diagrams" not in on_paper
     # What paper adds: contents, numbers of pages, tables and figures, signs, the drawings' words.
     added = {word for word in on_paper if word not in on_screen}
-    ours = "Contents Table Figure truth (m) – inspection report This is a film: it in the HTML report. •"
-    own = {*ours.split(), *["⚠", "✓", "/", "."]}
+    ours = "Contents Table Figure truth (m) This is a film: it in the HTML report."
+    own = {*ours.split(), "–", "inspection", "report", "•", "⚠", "✓", "/", "."}
     assert {w for w in added - own if not re.fullmatch(r"[−\d./]+|\.+", w)} == set()
 
 
@@ -299,6 +299,27 @@ def test_what_is_printable() -> None:
     assert (shortened("abcd", 4), shortened("abcde", 4)) == ("abcd", "abc…")
 
 
+def test_a_map_is_to_scale_on_the_page() -> None:
+    # Two equal letters, centred on ticks that are 0.6 m apart: 120 mm at 1 : 5.
+    trace = {"type": "scatter", "mode": "lines", "x": [0.0, 0.7], "y": [0.0, 0.3]}
+    layout = {
+        "xaxis": {"tickvals": [0.1, 0.7], "ticktext": ["Q", "Q"]},
+        "yaxis": {"scaleanchor": "x"},
+    }
+    plan = Figure("plan", "A plan.", "A plan.", [trace], layout)
+    data = pdf(document(blocks=[Figures([plan])]), ENGLISH)
+    places: list[float] = []
+
+    def seen(text: str, cm: list[float], tm: list[float], font: object, size: float) -> None:
+        if text.strip() == "Q":
+            places.append(cm[4] + tm[4])
+
+    pypdf.PdfReader(io.BytesIO(data)).pages[1].extract_text(visitor_text=seen)
+    assert "Scale 1 : 5, printed at full size" in " ".join(text_of(data).split())
+    assert len(places) == 2
+    assert (places[1] - places[0]) * 25.4 / 72.0 == pytest.approx(120.0, abs=0.01)
+
+
 def test_what_paper_cannot_show_is_said() -> None:
     scene = Figure("scene", "Path in space.", "A path.", [{"type": "scatter3d"}], {})
     film = Film(b"film", "The approach.", "A film.")
@@ -313,6 +334,15 @@ def test_the_file_is_written_whole(tmp_path: Path) -> None:
     write_pdf(document(), ENGLISH, path)
     assert path.read_bytes() == pdf(document(), ENGLISH)
     assert list(path.parent.iterdir()) == [path]
+
+
+def test_a_tall_picture_fits_its_page() -> None:
+    file = io.BytesIO()
+    Image.new("RGB", (30, 300), (0, 114, 178)).save(file, "PNG")
+    tall = Picture(file.getvalue(), "A tall picture.", "A column.")
+    reader = pypdf.PdfReader(io.BytesIO(pdf(document(blocks=[tall]), ENGLISH)))
+    assert len(reader.pages) == 2
+    assert "A tall picture." in reader.pages[1].extract_text()
 
 
 def test_a_failure_of_the_typesetter_is_told(tmp_path: Path) -> None:
