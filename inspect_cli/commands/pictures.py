@@ -7,13 +7,22 @@ from pathlib import Path
 from inspect_cli.files import write_whole
 from inspect_cli.log.reader import RunLog
 from inspect_cli.pictures.names import FILM_NAME, SCENE_NAME
+from inspect_cli.pictures.script import LegendEntry
 from inspect_cli.pictures.take import Pictures, take_pictures
+from inspect_cli.reporting.language import language as language_of
 from inspect_cli.reporting.palette import ASTM_STYLES, INVALID_STYLE
 from inspect_cli.schema.result import Result
+from inspect_cli.schema.survey import LanguageCode
 
 
 def pictured(
-    log: RunLog, result: Result, folder: Path, *, wanted: bool, flight: str = ""
+    log: RunLog,
+    result: Result,
+    folder: Path,
+    language: LanguageCode,
+    *,
+    wanted: bool,
+    flight: str = "",
 ) -> Pictures | None:
     """Take the pictures of a flight and write ``scene.png`` and ``film.mp4`` into ``folder``.
 
@@ -26,7 +35,11 @@ def pictured(
     """
     taken = Pictures()
     if wanted:
-        styles = {**ASTM_STYLES, "invalid": INVALID_STYLE}
+        words = language_of(language)
+        styles = {
+            name: LegendEntry(words.plain(style.label), style.colour, style.symbol)
+            for name, style in {**ASTM_STYLES, "invalid": INVALID_STYLE}.items()
+        }
         taken = take_pictures(log, result, styles, flight)
     for name, content in ((SCENE_NAME, taken.scene_png), (FILM_NAME, taken.film_mp4)):
         if content is None:

@@ -124,7 +124,7 @@ class PitchSampler:
                 yield UNREAD, UNREAD
                 continue
             rho = resistivity(ohm, probe.cell_constant_m)
-            yield combined_verdict(volt, rho), astm_class(volt)
+            yield combined_verdict(volt, rho) or UNREAD, astm_class(volt) or UNREAD
 
     def _places(self, work: ContactGrid | Coverage, offset: Vector) -> Points:
         """The points (n, 2) of a grid that lie in the region."""

@@ -12,9 +12,9 @@ from inspect_cli.commands.survey_report import report_survey, survey_of
 from inspect_cli.log.reader import read_log
 from inspect_cli.metrics.evaluate import evaluate
 from inspect_cli.pictures.take import Pictures
-from inspect_cli.reporting.language import LanguageCode
 from inspect_cli.reporting.report import write_report
 from inspect_cli.schema.result import Result
+from inspect_cli.schema.survey import LanguageCode
 
 
 @dataclass(frozen=True)
@@ -52,7 +52,7 @@ def _report_one(run: Path, folder: Path, language: LanguageCode, pictures: bool)
     folder.mkdir(parents=True, exist_ok=True)
     write_model(folder / "metrics.json", result)
     write_readings(folder, result, log.plan())
-    taken = pictured(log, result, folder, wanted=pictures)
+    taken = pictured(log, result, folder, language, wanted=pictures)
     return ReportOutcome(result, write_report(log, result, folder, language), taken)
 
 

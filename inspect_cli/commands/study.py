@@ -30,7 +30,6 @@ from inspect_cli.metrics.flight import Flight
 from inspect_cli.regression.flights import FlightEnd, FlightTask, fly_all
 from inspect_cli.regression.run import Progress
 from inspect_cli.reporting.html import html
-from inspect_cli.reporting.language import LanguageCode
 from inspect_cli.reporting.language import language as language_of
 from inspect_cli.reporting.study import study_document
 from inspect_cli.schema.coverage import CoveragePlan
@@ -39,6 +38,7 @@ from inspect_cli.schema.loading import Loaded, load_mission
 from inspect_cli.schema.plan import Plan
 from inspect_cli.schema.result import Metric
 from inspect_cli.schema.study import StudyColumn, StudyResult, StudyVariant
+from inspect_cli.schema.survey import LanguageCode
 
 STUDIES: dict[str, Study] = {"force": FORCE, "pitch": PITCH}
 """What ``inspect study`` knows, by name."""
@@ -128,7 +128,7 @@ def study(
         ),
         trials=sampler.trials if sampler else 0,
     )
-    return _written(chosen, result, folder)
+    return _written(chosen, result, folder, language)
 
 
 def _chosen(name: str, *, fly_sampled: bool) -> Study:
@@ -139,7 +139,9 @@ def _chosen(name: str, *, fly_sampled: bool) -> Study:
     return STUDIES[name]
 
 
-def _written(chosen: Study, result: StudyResult, folder: Path) -> StudyOutcome:
+def _written(
+    chosen: Study, result: StudyResult, folder: Path, language: LanguageCode
+) -> StudyOutcome:
     """The study's files, with what came out in words."""
     result = chosen.concluded(result) if chosen.concluded else result
     write_model(folder / "study.json", result)

@@ -14,11 +14,11 @@ from inspect_cli.log.reader import RunLog, read_log
 from inspect_cli.metrics.evaluate import evaluate
 from inspect_cli.metrics.survey import joined_result, scorer
 from inspect_cli.pictures.take import Pictures
-from inspect_cli.reporting.language import LanguageCode
 from inspect_cli.reporting.report import write_report
 from inspect_cli.reporting.survey import write_survey_report
 from inspect_cli.schema.coverage import CoveragePlan, Sortie
 from inspect_cli.schema.result import Result
+from inspect_cli.schema.survey import LanguageCode
 
 FLY_AGAIN = "fly the survey again, or report its sorties one by one"
 
@@ -91,7 +91,7 @@ def report_survey(
     write_model(folder / "metrics.json", joined)
     write_readings(folder, joined, plan)
     which = f"sortie 1 of {len(results)}"
-    taken = pictured(first, results[0], folder, wanted=pictures, flight=which)
+    taken = pictured(first, results[0], folder, language, wanted=pictures, flight=which)
     page = write_survey_report(first, joined, results, survey, folder, language)
     return joined, page, taken
 

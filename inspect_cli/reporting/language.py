@@ -13,7 +13,7 @@ from dataclasses import dataclass
 from functools import cache
 from importlib import resources
 from io import BytesIO
-from typing import Any, Literal, get_args
+from typing import Any, get_args
 
 from babel import Locale
 from babel.lists import format_list
@@ -33,8 +33,8 @@ from inspect_cli.reporting.text import (
     Text,
     exists,
 )
+from inspect_cli.schema.survey import LanguageCode
 
-LanguageCode = Literal["en", "de"]
 LANGUAGES: tuple[LanguageCode, ...] = get_args(LanguageCode)
 LOCALES: Mapping[LanguageCode, str] = {"en": "en_GB", "de": "de_DE"}
 

@@ -31,7 +31,6 @@ from inspect_cli.reporting.figures_modes import modes_figure
 from inspect_cli.reporting.figures_scene import scene_figure
 from inspect_cli.reporting.figures_tracking import tracking_figures
 from inspect_cli.reporting.html import html
-from inspect_cli.reporting.language import LanguageCode
 from inspect_cli.reporting.language import language as language_of
 from inspect_cli.reporting.points import ReadPoint, read_points
 from inspect_cli.reporting.provenance import provenance
@@ -61,6 +60,7 @@ from inspect_cli.reporting.told import told
 from inspect_cli.reporting.works import Works, kicker, works_of
 from inspect_cli.schema.plan import Plan
 from inspect_cli.schema.result import Result
+from inspect_cli.schema.survey import LanguageCode
 
 REPORT_NAME = "report.html"
 

@@ -18,7 +18,6 @@ from inspect_cli.reporting.content import (
 )
 from inspect_cli.reporting.figures_survey import energy_figure, tour_figures
 from inspect_cli.reporting.html import html
-from inspect_cli.reporting.language import LanguageCode
 from inspect_cli.reporting.language import language as language_of
 from inspect_cli.reporting.points import read_points
 from inspect_cli.reporting.provenance import provenance
@@ -45,6 +44,7 @@ from inspect_cli.reporting.works import works_of
 from inspect_cli.schema.coverage import CoveragePlan, Skipped, Sortie
 from inspect_cli.schema.plan import Plan
 from inspect_cli.schema.result import Result
+from inspect_cli.schema.survey import LanguageCode
 
 
 def write_survey_report(

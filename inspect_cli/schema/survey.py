@@ -20,7 +20,8 @@ Electrode = Literal[
 PotentialUnit = Literal["mV", "V"]
 LengthUnit = Literal["m", "cm", "mm", "ft", "in"]
 ResistivityUnit = Literal["kohm_cm", "ohm_m", "ohm_cm"]
-Language = Literal["en", "de"]
+LanguageCode = Literal["en", "de"]
+"""The languages of a report."""
 
 FOUR_INCHES_M = 0.1016
 
@@ -91,5 +92,5 @@ class SurveySettings(Strict):
     inspector: str | None = None
     date: Annotated[str, AfterValidator(_day)] | None = None
     """When the readings were taken, such as 2025-03-31."""
-    language: Language = "en"
+    language: LanguageCode = "en"
     """Of the report."""

@@ -21,6 +21,7 @@ from typing import Final
 
 import numpy as np
 
+from inspect_cli.assessment.electrodes import COEFFICIENT_V_PER_C, STANDARD_C
 from inspect_cli.schema.macro_cell import ActiveSite, MacroCellSpecimen, MoistSpot
 from inspect_cli.spatial.arrays import Matrix, Vector
 from inspect_cli.truth.macro_cell.concrete import Concrete, box_widths, concrete_of
@@ -32,8 +33,6 @@ from inspect_cli.truth.macro_cell.steel import Steel
 VERSION: Final = 1
 """Of the equations and their discretisation; a new one makes cached solutions worthless."""
 KELVIN: Final = 273.15
-STANDARD_C: Final = 22.2
-TEMPERATURE_VPK: Final = 0.9e-3
 RESISTIVITY_C: Final = 20.0
 ACTIVATION_JPMOL: Final = 25e3
 GAS_JPMOLK: Final = 8.314462618
@@ -83,7 +82,7 @@ def solve_cell(model: MacroCellSpecimen, patch: Patch) -> MacroCell:
 
 def surface_reading(model: MacroCellSpecimen, patch: Patch) -> Matrix:
     """What a half-cell reads at the surface's nodes (n_v, n_u), V against CSE."""
-    shift = TEMPERATURE_VPK * (model.temperature_c - STANDARD_C)
+    shift = COEFFICIENT_V_PER_C * (model.temperature_c - STANDARD_C)
     reading: Matrix = solve_cell(model, patch).potentials.concrete[0] - shift
     return reading
 
