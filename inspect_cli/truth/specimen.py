@@ -116,12 +116,10 @@ def bilinear(x: float, y: float, values: Matrix) -> tuple[float, float]:
 class SpotField:
     """Sound concrete with Gaussian active spots."""
 
-    temperature_c: Final = STANDARD_C
-    """Nothing is known of it."""
-
     def __init__(self, model: AnalyticSpecimen) -> None:
         self._sound = (model.potential_v, model.resistivity_ohm_m)
         rows = [(*s.at_m, s.depth_v, s.radius_m, s.resistivity_factor) for s in model.spots]
+        self.temperature_c = model.temperature_c
         self._spots: Points = np.array(rows, dtype=np.float64).reshape(-1, 5)
 
     def at(self, u: float, v: float) -> tuple[float, float]:
@@ -137,10 +135,14 @@ class SpotField:
 class GridField:
     """Values on a grid. ``values`` (rows, columns, 2) in V and Ω·m; at least 2 × 2 nodes."""
 
-    temperature_c: Final = STANDARD_C
-    """Nothing is known of it."""
-
-    def __init__(self, values: Matrix, pitch_m: float, at_m: tuple[float, float]) -> None:
+    def __init__(
+        self,
+        values: Matrix,
+        pitch_m: float,
+        at_m: tuple[float, float],
+        temperature_c: float = STANDARD_C,
+    ) -> None:
+        self.temperature_c = temperature_c
         self._values = np.ascontiguousarray(values, dtype=np.float64)
         rows, columns = values.shape[:2]
         self._pitch = pitch_m
@@ -236,7 +238,9 @@ def _load_grid(model: GridSpecimen, root: Path) -> GridField:
         raise InputError(
             f"{model.resistivity_kohm_cm}: row {row}, column {column} is not a positive resistivity"
         )
-    return GridField(np.dstack([potential, resistivity]), model.pitch_m, model.at_m)
+    return GridField(
+        np.dstack([potential, resistivity]), model.pitch_m, model.at_m, model.temperature_c
+    )
 
 
 def _size(table: Vector) -> str:
