@@ -44,5 +44,7 @@ MEAN_OVER_ENERGY = Joined("mean", "flight.energy_wh_flown")
 RMS_OVER_TIME = Joined("rms", "flight.duration_s")
 SCORED_ANEW = Joined("anew")
 """Is scored again over all points, because areas and sites of several flights overlap."""
+ASSESSED_ANEW = SCORED_ANEW
+"""Is assessed again over all points, because neighbours were read in different flights."""
 NOT_JOINED = Joined("none")
 """Says something of a single flight only."""

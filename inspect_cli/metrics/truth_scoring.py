@@ -72,7 +72,7 @@ def scoring_of(flight: Flight) -> Scoring:
     if not rasters:
         raise NotMeasured(NO_TRUTH)
     placed = [(wanted[p.index], p) for p in point_results(flight) if p.index in wanted]
-    return score(placed, rasters, flight.log.mission())
+    return score(placed, rasters, flight.mission)
 
 
 def score(
