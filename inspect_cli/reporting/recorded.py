@@ -11,6 +11,7 @@ import re
 from functools import cache
 
 from inspect_cli.reporting.language import pieces
+from inspect_cli.reporting.pitch_findings import PITCH_FINDINGS
 from inspect_cli.reporting.text import Said, Text, number, say
 
 PLAIN_NUMBER = re.compile(r"-?[0-9]+(?:\.([0-9]+))?")
@@ -108,6 +109,11 @@ RECORDED: tuple[Said, ...] = (
     say("the cord pulled straight up or down"),
     say("a pull caused no {what} at all to compare with"),
     *(say("motion in z"), say("rotation"), say("torque about z_B")),
+    say("every valid potential is in the passive class: none stands out"),
+    say("the log does not hold what is truly so beneath a surface"),
+    say("the log does not hold what is truly so beneath a surface where points were planned"),
+    say("a single point on '{name}' does not say what area it stands for"),
+    *PITCH_FINDINGS,
 )
 
 
