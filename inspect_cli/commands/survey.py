@@ -86,7 +86,7 @@ def join(
     ``rasters`` are what is truly so, for the points of all sorties to be held against.
     """
     mission = loaded.mission
-    score_all = scorer(mission.tasks[0].on, rasters, mission)
+    score_all = scorer(rasters, mission)
     flown = sum(len(sortie.plan.targets) for sortie in survey.sorties[: len(results)])
     unvisited = survey.joined().targets[flown:]
     assess_all = assessor(mission, loaded.platform)

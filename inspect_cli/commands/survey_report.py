@@ -87,7 +87,7 @@ def report_survey(
     plan = survey.joined()
     unvisited = plan.targets[flown:]
     mission = first.mission()
-    score_all = scorer(mission.tasks[0].on, first.true_rasters(), mission)
+    score_all = scorer(first.true_rasters(), mission)
     assess_all = assessor(mission, first.platform())
     joined = joined_result(
         results, unvisited, mission.acceptance, _seed(run), score_all, assess_all

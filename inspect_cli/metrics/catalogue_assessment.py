@@ -14,7 +14,7 @@ import numpy as np
 
 from inspect_cli.metrics.assessed import assess_points
 from inspect_cli.metrics.flight import Flight, NotMeasured
-from inspect_cli.metrics.joined import ASSESSED_ANEW
+from inspect_cli.metrics.joined import ANEW
 from inspect_cli.metrics.points import point_results
 from inspect_cli.metrics.spec import MetricSpec
 from inspect_cli.records import Reading
@@ -148,6 +148,6 @@ def _count(summary: SurfaceAssessment, name: str) -> int:
 
 
 ASSESSMENT_METRICS: dict[str, MetricSpec] = {
-    name: MetricSpec(f.unit, _function(f), f.meaning, (Reading,), ASSESSED_ANEW)
+    name: MetricSpec(f.unit, _function(f), f.meaning, (Reading,), ANEW)
     for name, f in FINDINGS.items()
 }

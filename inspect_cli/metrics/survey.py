@@ -67,12 +67,12 @@ def joined_result(
     )
 
 
-def scorer(surface: str | None, rasters: Sequence[TrueRaster], mission: Mission) -> ScoreAll:
-    """What scores all points of a survey of one surface; None where nothing can be scored."""
+def scorer(rasters: Sequence[TrueRaster], mission: Mission) -> ScoreAll:
+    """What scores all points of a survey; None where nothing can be scored."""
 
     def score_all(points: Sequence[PointResult]) -> Scoring | None:
         try:
-            return score([(surface, point) for point in points], rasters, mission)
+            return score(points, rasters, mission)
         except NotMeasured:
             return None
 
