@@ -95,18 +95,31 @@
       shorter[`${name}.title.text`] = broken(text);
     }
     if (Object.keys(shorter).length) await Plotly.relayout(plot, shorter);
-    const { yaxis, _size: room } = plot._fullLayout;
-    if (!yaxis || !yaxis.scaleanchor) return;
-    const spare = Math.floor(room.h - yaxis._length);
-    if (spare < 1) return;
-    plot.style.height = `${plot.clientHeight - spare}px`;
-    await Plotly.relayout(plot, { autosize: true });
+    // Margins follow the labels that a lower figure has: the second time it is about nothing.
+    for (let again = 0; again < 3; again++) {
+      const { yaxis, _size: room } = plot._fullLayout;
+      if (!yaxis || !yaxis.scaleanchor) return;
+      const spare = Math.floor(room.h - yaxis._length);
+      if (spare < 1) return;
+      plot.style.height = `${plot.clientHeight - spare}px`;
+      await Plotly.relayout(plot, { autosize: true });
+    }
+  }
+
+  // Paper cannot be scrolled: a table that is too wide for it is set smaller.
+  function fitTables(paper) {
+    for (const table of document.querySelectorAll(".scroll > table")) {
+      table.style.zoom = "";
+      const share = table.parentElement.clientWidth / table.offsetWidth;
+      if (paper && share < 1) table.style.zoom = String(share);
+    }
   }
 
   // Paper has another width than the window, and printing does not resize what stands in it.
   // While the class is set, the style sheet gives the page its printed width.
   function fitTo(paper) {
     root.classList.toggle("printing", paper);
+    fitTables(paper);
     plots.forEach(fit);
   }
   window.addEventListener("beforeprint", () => fitTo(true));

@@ -9,42 +9,30 @@ from pathlib import Path
 
 import pytest
 from babel.messages.pofile import read_po
+from example_documents import ACCEPTANCE, FLIGHTS, flown, studied, study_result, surveyed
 from example_flights import Flight, spoil
-from experiment_flights import drawing, force_evaluation, hold, servoing
 from report_pages import Page, Reported
 from said_texts import names, reasons, said
 from visible_words import Pseudo, foreign, left_over, shown, visible
 
 from inspect_cli import cli
 from inspect_cli.commands.study import STUDIES
-from inspect_cli.metrics.evaluate import evaluate
 from inspect_cli.metrics.flight import Flight as Logged
 from inspect_cli.metrics.points import point_results
 from inspect_cli.metrics.truth_scoring import NO_TRUTH
-from inspect_cli.records import InvalidReason, Reading
-from inspect_cli.reporting.content import Document
+from inspect_cli.records import InvalidReason
 from inspect_cli.reporting.figures_pitch import DETECTED, MISSED, SITES
 from inspect_cli.reporting.html import html
 from inspect_cli.reporting.language import LANGUAGES, language
 from inspect_cli.reporting.points import ReadPoint
 from inspect_cli.reporting.recorded import RECORDED, recorded
-from inspect_cli.reporting.report import report_document, write_report
-from inspect_cli.reporting.study import study_document
-from inspect_cli.reporting.survey import survey_document
+from inspect_cli.reporting.report import write_report
 from inspect_cli.reporting.text import Said, count, number, say, significant
-from inspect_cli.schema.coverage import CoveragePlan, Skipped, Sortie
 from inspect_cli.schema.result import Metric
 from inspect_cli.schema.study import Quantity, StudyResult, StudyVariant
 
 Fly = Callable[..., Flight]
 Report = Callable[[Flight], Reported]
-
-ACCEPTANCE = (
-    {"metric": "contact.points_valid", "min": 9, "ref": "A8.map"},
-    {"metric": "contact.force_mean_n", "min": 1.44, "max": 2.16, "ref": "A8.force"},
-    {"metric": "contact.force_peak_n", "max": 0.5, "known_failure": "it presses with 1.8 N"},
-    {"metric": "force_sensor.rmse_fy_n", "max": 2.5, "ref": "A9.force"},
-)
 
 
 @pytest.mark.parametrize("code", [code for code in LANGUAGES if code != "en"])
@@ -97,84 +85,12 @@ def test_what_somebody_else_wrote_stays_as_it_is() -> None:
     assert len({said.template for said in RECORDED}) == len(RECORDED)
 
 
-def surveyed(flight: Flight) -> Document:
-    log = flight.log()
-    result = evaluate(log)
-    added = Sortie(number=2, added=True, plan=flight.plan)
-    sorties = [Sortie(number=1, plan=flight.plan), added, Sortie(number=3, plan=flight.plan)]
-    left = Skipped(
-        label="z-9", surface="wall", uv_m=(0.0, 0.1), p_WC=(2.0, 0.0, 1.3), reason="zu weit"
-    )
-    survey = CoveragePlan.of(sorties, [left], 12.3, 40.0)
-    late = result.model_copy(update={"status": "aborted", "status_reason": "das Seil riss"})
-    return survey_document(log, result, [result, late], survey, flight.plan)
-
-
-def studied(name: str) -> Document:
-    study = STUDIES[name]
-    columns = study.columns + study.flown_columns
-    metrics = {c.metric: Metric(value=0.5, unit=c.unit) for c in columns}
-    quantities = tuple(
-        Quantity(name=f.name, symbol=f.symbol, unit=f.unit, base=1.0) for f in study.factors
-    )
-    values = {quantity.name: 1.0 for quantity in quantities}
-    other = values | {quantities[0].name: 2.0}
-    errors = {c.metric: 0.1 for c in columns}
-    made = {"metrics": metrics, "status": "completed", "standard_errors": errors}
-    variants = tuple(
-        StudyVariant(name=f"variant-{k}", folder=f"variant-{k}", values=chosen, **made)
-        for k, chosen in enumerate((values, other))
-    )
-    result = StudyResult(
-        study=name,
-        title=study.title,
-        mission="example-survey",
-        platform="tilt_rotor_hexarotor",
-        seed=1,
-        expect_status="completed",
-        quantities=quantities,
-        columns=columns,
-        variants=variants,
-        trials=20 if study.sampler else 0,
-    )
-    result = study.concluded(result) if study.concluded else result
-    return study_document(result, study.explained, [figure(result) for figure in study.figures])
-
-
-def invalid(flight: Flight) -> Flight:
-    for k in range(1, 9):
-        spoil(flight, k, InvalidReason(k))
-    flight.status, flight.status_reason = "aborted", "no surface within reach of target 1"
-    return flight
-
-
-def resistive(flight: Flight) -> Flight:
-    flight.rows(Reading)["resistance"] = 150.0 / 0.08
-    return flight
-
-
-FLIGHTS: dict[str, Callable[[Fly, Path], Flight]] = {
-    "nine": lambda fly, _: fly(acceptance=ACCEPTANCE),
-    "invalid": lambda fly, _: invalid(fly(3, 3)),
-    "resistive": lambda fly, _: resistive(fly()),
-    "real": lambda fly, _: fly().without_truth(),
-    "cut": lambda fly, _: fly().cut_at(20.0),
-    "drawing": lambda _, platform: drawing(platform),
-    "servoing": lambda _, platform: servoing(platform),
-    "pulls": lambda _, platform: hold(platform),
-    "hold": lambda _, platform: hold(platform, pulls=0),
-    "forces": lambda _, platform: force_evaluation(platform),
-}
-
-
 @pytest.mark.parametrize("name", FLIGHTS)
 def test_no_word_of_a_flights_report_is_left_in_english(
     fly: Fly, platform_file: Path, name: str
 ) -> None:
     flight = FLIGHTS[name](fly, platform_file)
-    log = flight.log()
-    document = report_document(log, evaluate(log), flight.plan)
-    page = Page(html(document, Pseudo.made()))
+    page = Page(html(flown(flight), Pseudo.made()))
     assert left_over(page, foreign(flight)) == []
 
 
@@ -187,7 +103,7 @@ def test_no_word_of_a_surveys_report_is_left_in_english(fly: Fly) -> None:
 
 @pytest.mark.parametrize("name", STUDIES)
 def test_no_word_of_a_study_is_left_in_english(fly: Fly, name: str) -> None:
-    page = Page(html(studied(name), Pseudo.made()))
+    page = Page(html(studied(study_result(name)), Pseudo.made()))
     assert left_over(page, foreign(fly(1, 1)) | {"variant-0", "variant-1"}) == []
 
 
