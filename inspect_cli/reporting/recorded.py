@@ -11,6 +11,8 @@ import re
 from functools import cache
 
 from inspect_cli.reporting.language import pieces
+from inspect_cli.reporting.recorded_findings import FINDINGS
+from inspect_cli.reporting.recorded_pictures import PICTURES
 from inspect_cli.reporting.text import Said, Text, number, say
 
 PLAIN_NUMBER = re.compile(r"-?[0-9]+(?:\.([0-9]+))?")
@@ -97,6 +99,8 @@ RECORDED: tuple[Said, ...] = (
     say("the cord pulled straight up or down"),
     say("a pull caused no {what} at all to compare with"),
     *(say("motion in z"), say("rotation"), say("torque about z_B")),
+    *FINDINGS,
+    *PICTURES,
 )
 
 
