@@ -29,11 +29,12 @@ def error_figure(k: int, evaluated: Evaluated) -> Figure | None:
     readings = evaluated.assessed.readings
     frame, error_mv = frame_of(readings.uv_m), 1e3 * kriged.standard_error_v
     top, step = scale_of(float(np.nanmax(error_mv)))
+    few = kriged.readings <= MOST_MARKERS
     stops = [list(stop) for stop in ERROR_STOPS]
     field: Json = {
         **field_trace(kriged, error_mv),
         "contours": {"start": 0.0, "end": top, "size": step},
-        "line": {"width": 0.6, "color": INK, "smoothing": 0},
+        "line": {"width": 0.6 if few else 0.0, "color": INK, "smoothing": 0},
         "colorscale": stops,
         "zmin": 0.0,
         "zmax": top,
@@ -59,7 +60,7 @@ def error_figure(k: int, evaluated: Evaluated) -> Figure | None:
             "Map of the standard error of the interpolated potentials, up to {most} mV.",
             most=number(float(np.nanmax(error_mv)), 0),
         ),
-        [field, colour_bar("scatter"), *([dots] if len(valid) <= MOST_MARKERS else [])],
+        [field, colour_bar("scatter"), *([dots] if few else [])],
         {**frame.layout(), "coloraxis": axis},
         MAP_FRAME_PX + int(max(high, 120.0)),
         slope=min(frame.slope, 1.6),

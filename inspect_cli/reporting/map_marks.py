@@ -63,7 +63,9 @@ def invalid_markers(places: Sequence[Place], reasons: Mapping[str, Text]) -> lis
         )
         for p in places
     ]
-    marker = {"symbol": style.symbol, "size": 12, "color": INK, "line": {"width": 2}}
+    few = len(places) <= MAX_WRITTEN_VALUES
+    line = {"width": 2 if few else 1}
+    marker = {"symbol": style.symbol, "size": 12 if few else 6, "color": INK, "line": line}
     return [{**_at(places), "name": style.label, "marker": marker, "customdata": told}]
 
 
