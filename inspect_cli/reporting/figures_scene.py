@@ -11,7 +11,14 @@ from inspect_cli.records import Estimate, State
 from inspect_cli.reporting.figure import Figure, Json, numbers, words
 from inspect_cli.reporting.palette import ESTIMATE, INK, MUTED, REFERENCE, TIP, TRUTH, LineStyle
 from inspect_cli.reporting.points import ReadPoint
-from inspect_cli.reporting.potential_scale import colour_axis, colour_bar, colours, hover_text
+from inspect_cli.reporting.potential_scale import (
+    colour_axis,
+    colour_bar,
+    colours,
+    hover_text,
+    potential_range,
+    potentials_of,
+)
 from inspect_cli.reporting.rows import rows_of
 from inspect_cli.reporting.text import Text, say, together
 from inspect_cli.schema.plan import Plan, PlannedSurface
@@ -42,7 +49,7 @@ def scene_figure(log: RunLog, plan: Plan, points: Sequence[ReadPoint]) -> Figure
     traces += [*_readings(points), *_cloud(log)]
     layout: Json = {
         "margin": {"l": 0, "r": 0, "t": 30, "b": 70},
-        "coloraxis": colour_axis(points),
+        "coloraxis": colour_axis(potential_range(potentials_of(points))),
         "scene": {
             "aspectmode": "data",
             "camera": {"eye": _eye(plan), "center": {"x": 0, "y": 0, "z": -0.2}},
@@ -122,7 +129,7 @@ def _readings(points: Sequence[ReadPoint]) -> list[Json]:
     if valid:
         marker = {
             "size": 6,
-            "color": colours(valid, points),
+            "color": colours(potentials_of(valid), potential_range(potentials_of(valid))),
             "line": {"width": 1, "color": INK},
         }
         told = [hover_text(p) for p in valid]

@@ -110,6 +110,9 @@ POTENTIAL_STOPS = {
 """Colours of a potential map from a class's least to its most negative potential; they darken
 towards corrosion, so that the map keeps its order when printed in grey."""
 
+ERROR_STOPS = ((0.0, "#f4f8fc"), (0.35, "#b3d3ea"), (0.7, "#4a90c4"), (1.0, "#0b3c6b"))
+"""Colours of a map of standard errors, from none to the largest: one hue that darkens."""
+
 
 def css_variables() -> str:
     """The colours for the style sheet, which has none of its own."""

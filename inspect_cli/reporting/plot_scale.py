@@ -14,8 +14,8 @@ from inspect_cli.reporting.text import Text, number, say
 
 SCALES = tuple(m * 10**power for power in range(6) for m in (1, 2, 5, *((2.5,) if power else ())))
 """1 : 1, 1 : 2, 1 : 5, 1 : 10, 1 : 20, 1 : 25, 1 : 50 and so on, ISO 5455's with 25 and 250."""
-BAR_MM = (18.0, 50.0)
-"""Least and greatest length of a scale bar on paper."""
+BAR_SHARES = (0.1, 0.3)
+"""Least and greatest length of a scale bar, of the drawing's width: words stand beside it."""
 BAR_HEIGHT_MM = 1.3
 
 
@@ -54,12 +54,12 @@ def scale_for(width_m: float, height_m: float, room_mm: tuple[float, float]) -> 
     return MapScale(max(1e3 * width_m / room_mm[0], 1e3 * height_m / room_mm[1]))
 
 
-def bar_length_m(scale: MapScale) -> float:
+def bar_length_m(scale: MapScale, width_mm: float) -> float:
     """A round length that makes a handy bar."""
     for power in range(-4, 6):
         for m in (1.0, 2.0, 5.0):
             length = m * 10.0**power
-            if BAR_MM[0] <= scale.millimetres(length) <= BAR_MM[1]:
+            if BAR_SHARES[0] <= scale.millimetres(length) / width_mm <= BAR_SHARES[1]:
                 return length
     return 1.0
 
@@ -72,7 +72,7 @@ def draw_scale_bar(
     language: Language,
 ) -> None:
     """Four fields, black and white by turns, with the ends' lengths and the scale in words."""
-    length = bar_length_m(scale)
+    length = bar_length_m(scale, size_mm[0])
     left, bottom = place_mm
     for k in range(4):
         quarter = scale.millimetres(length) / 4.0

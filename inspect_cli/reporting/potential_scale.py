@@ -3,26 +3,32 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from itertools import pairwise
 
 from inspect_cli.assessment.classes import ACTIVE_BELOW_V, PASSIVE_ABOVE_V
 from inspect_cli.reporting.figure import Json, words
-from inspect_cli.reporting.palette import POTENTIAL_STOPS
+from inspect_cli.reporting.palette import INK, POTENTIAL_STOPS
 from inspect_cli.reporting.points import ReadPoint
 from inspect_cli.reporting.recorded import recorded
 from inspect_cli.reporting.text import NOTHING, Text, number, say, separated, together
 
 PASSIVE_ABOVE_MV = 1e3 * PASSIVE_ABOVE_V
 ACTIVE_BELOW_MV = 1e3 * ACTIVE_BELOW_V
+TINY_MV = 1e-6
 STEP_MV = 50.0
-"""Interval of the contours; a whole number of them lies between the class boundaries."""
+"""The scale ends at a whole number of these."""
 LEAST_RANGE_MV = (-550.0, 0.0)
 
 
-def potential_range(points: Sequence[ReadPoint]) -> tuple[float, float]:
-    """Ends of the scale, mV: at least ``LEAST_RANGE_MV``, and every valid reading within."""
-    values = [p.point.potential_mv for p in points if p.point.potential_mv is not None]
+def potentials_of(points: Iterable[ReadPoint]) -> list[float]:
+    """The valid potentials of points, mV."""
+    return [p.point.potential_mv for p in points if p.point.potential_mv is not None]
+
+
+def potential_range(values_mv: Iterable[float]) -> tuple[float, float]:
+    """Ends of the scale, mV: at least ``LEAST_RANGE_MV``, and every potential within."""
+    values = list(values_mv)
     low, high = min([*values, LEAST_RANGE_MV[0]]), max([*values, LEAST_RANGE_MV[1]])
     return STEP_MV * math.floor(low / STEP_MV), STEP_MV * math.ceil(high / STEP_MV)
 
@@ -41,13 +47,15 @@ def colour_scale(low: float, high: float) -> list[tuple[float, str]]:
     ]
 
 
-def colours(points: Sequence[ReadPoint], everywhere: Sequence[ReadPoint]) -> list[str]:
-    """The colour of each point on the scale that spans all points."""
-    low, high = potential_range(everywhere)
+def colours(values_mv: Iterable[float], ends: tuple[float, float]) -> list[str]:
+    """The colour of each potential on the scale between its ends, mV.
+
+    Both boundaries belong to the class between them.
+    """
+    low, high = ends
     scale = colour_scale(low, high)
-    return [
-        _interpolated(scale, ((p.point.potential_mv or 0.0) - low) / (high - low)) for p in points
-    ]
+    within = (mv + TINY_MV if mv == ACTIVE_BELOW_MV else mv for mv in values_mv)
+    return [_interpolated(scale, (mv - low) / (high - low)) for mv in within]
 
 
 def _interpolated(scale: Sequence[tuple[float, str]], share: float) -> str:
@@ -73,43 +81,80 @@ def colour_bar(kind: str) -> Json:
     }
 
 
-def colour_axis(points: Sequence[ReadPoint]) -> Json:
+def colour_axis(ends: tuple[float, float]) -> Json:
     """A plotly colour axis for the potentials, its bar marked at the class boundaries."""
-    low, high = potential_range(points)
+    low, high = ends
     return {
         "cmin": low,
         "cmax": high,
         "colorscale": colour_scale(low, high),
-        "colorbar": {
-            "title": {"text": " mV CSE", "side": "right", "font": {"size": 11}},
-            "tickvals": [low, ACTIVE_BELOW_MV, PASSIVE_ABOVE_MV, high],
-            "orientation": "h",
-            "x": 0.5,
-            "len": 0.7,
-            "y": 0,
-            "yref": "container",
-            "yanchor": "bottom",
-            "thickness": 12,
-            "outlinewidth": 0,
-            "tickfont": {"size": 11},
-        },
+        "colorbar": lying_bar(" mV CSE", [low, ACTIVE_BELOW_MV, PASSIVE_ABOVE_MV, high]),
+    }
+
+
+def lying_bar(unit: Text, ticks: Sequence[float]) -> Json:
+    """A colour bar below the drawing, its marks where they are wanted."""
+    return {
+        "title": {"text": unit, "side": "right", "font": {"size": 11}},
+        "tickvals": list(ticks),
+        "orientation": "h",
+        "x": 0.5,
+        "len": 0.7,
+        "y": 0,
+        "yref": "container",
+        "yanchor": "bottom",
+        "thickness": 12,
+        "outlinewidth": 0,
+        "tickfont": {"size": 11},
     }
 
 
 def hover_text(p: ReadPoint) -> Text:
     """What a figure says of a valid reading under the pointer."""
     point = p.point
-    ohm_m = point.resistivity_ohm_m
+    return reading_text(
+        point.label,
+        point.potential_mv,
+        point.astm_class,
+        point.resistivity_ohm_m,
+        point.corrosion,
+    )
+
+
+def reading_text(
+    label: str,
+    potential_mv: float | None,
+    astm_class: str | None,
+    resistivity_ohm_m: float | None,
+    verdict: str | None,
+) -> Text:
+    """A valid reading and what it means, line by line."""
     lines: list[Text] = [
         say(
             "point {label}: {potential} mV CSE",
-            label=words(point.label),
-            potential=number(point.potential_mv, 0),
+            label=words(label),
+            potential=number(potential_mv, 0),
         ),
-        together("ASTM C876: ", recorded(point.astm_class or NOTHING)),
+        together("ASTM C876: ", recorded(astm_class or NOTHING)),
         say("resistivity unknown")
-        if ohm_m is None
-        else say("resistivity {resistivity} Ω·m", resistivity=number(ohm_m, 0)),
-        say("combined verdict: {verdict}", verdict=recorded(point.corrosion or NOTHING)),
+        if resistivity_ohm_m is None
+        else say("resistivity {resistivity} Ω·m", resistivity=number(resistivity_ohm_m, 0)),
+        say("combined verdict: {verdict}", verdict=recorded(verdict or NOTHING)),
     ]
     return separated(lines, "<br>")
+
+
+def class_line(axis: str, value: float) -> Json:
+    """A dashed line across a diagram at a boundary of classes."""
+    other = "y" if axis == "x" else "x"
+    return {
+        "type": "line",
+        f"{axis}ref": axis,
+        f"{axis}0": value,
+        f"{axis}1": value,
+        f"{other}ref": "paper",
+        f"{other}0": 0,
+        f"{other}1": 1,
+        "line": {"color": INK, "width": 1, "dash": "dash"},
+        "layer": "below",
+    }

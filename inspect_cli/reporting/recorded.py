@@ -12,6 +12,8 @@ from functools import cache
 
 from inspect_cli.reporting.language import pieces
 from inspect_cli.reporting.pitch_findings import PITCH_FINDINGS
+from inspect_cli.reporting.recorded_findings import FINDINGS
+from inspect_cli.reporting.recorded_pictures import PICTURES
 from inspect_cli.reporting.text import Said, Text, number, say
 
 PLAIN_NUMBER = re.compile(r"-?[0-9]+(?:\.([0-9]+))?")
@@ -114,6 +116,8 @@ RECORDED: tuple[Said, ...] = (
     say("the log does not hold what is truly so beneath a surface where points were planned"),
     say("a single point on '{name}' does not say what area it stands for"),
     *PITCH_FINDINGS,
+    *FINDINGS,
+    *PICTURES,
 )
 
 

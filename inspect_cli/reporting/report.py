@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Sequence
 from pathlib import Path
 
-from inspect_cli.assessment.classes import COMBINED_RULE
 from inspect_cli.files import write_whole
 from inspect_cli.log.reader import RunLog
 from inspect_cli.records import Reference
@@ -19,19 +18,20 @@ from inspect_cli.reporting.content import (
     Section,
     drawn,
 )
+from inspect_cli.reporting.evaluated import Evaluated
+from inspect_cli.reporting.evaluation import evaluation_blocks
 from inspect_cli.reporting.experiments import experiment_sections
-from inspect_cli.reporting.figures_corrosion import cumulative_figure, resistivity_figure
 from inspect_cli.reporting.figures_forces import (
     actuator_figures,
     force_figures,
     surface_figures,
 )
-from inspect_cli.reporting.figures_map import map_figures
 from inspect_cli.reporting.figures_modes import modes_figure
 from inspect_cli.reporting.figures_scene import scene_figure
 from inspect_cli.reporting.figures_tracking import tracking_figures
 from inspect_cli.reporting.html import html
 from inspect_cli.reporting.language import language as language_of
+from inspect_cli.reporting.pictures import Rendered, pictures_sections
 from inspect_cli.reporting.points import ReadPoint, read_points
 from inspect_cli.reporting.provenance import provenance
 from inspect_cli.reporting.recorded import recorded
@@ -46,15 +46,12 @@ from inspect_cli.reporting.summary import (
     warnings,
 )
 from inspect_cli.reporting.tables import (
-    classes_table,
     events_table,
     fits_table,
     metrics_table,
-    points_table,
     truth_table,
-    verdicts_table,
 )
-from inspect_cli.reporting.text import NOTHING, Badge, Said, Text, say, sentences, strong
+from inspect_cli.reporting.text import NOTHING, Badge, Text, say
 from inspect_cli.reporting.timeline import Timeline, timeline_of
 from inspect_cli.reporting.told import told
 from inspect_cli.reporting.works import Works, kicker, works_of
@@ -65,11 +62,26 @@ from inspect_cli.schema.survey import LanguageCode
 REPORT_NAME = "report.html"
 
 
-def write_report(log: RunLog, result: Result, folder: Path, language: LanguageCode = "en") -> Path:
+def write_report(
+    log: RunLog,
+    result: Result,
+    folder: Path,
+    language: LanguageCode = "en",
+    evaluated: Sequence[Evaluated] = (),
+    pictures: Rendered | None = None,
+) -> Path:
     """Write ``report.html`` into ``folder``; return the page's path.
 
-    The page is one file that needs no network. It draws what ``result`` and ``log`` hold and
-    computes no finding; the same log and result give the same bytes.
+    The page is one file that needs no network. It draws what ``result``, ``evaluated`` and ``log``
+    hold and computes no finding; the same of them give the same bytes.
+
+    Args:
+        log: the flight.
+        result: its metrics and points.
+        folder: where to.
+        language: of the page.
+        evaluated: the readings of each surface, evaluated.
+        pictures: what was rendered of the flight; None where none were wanted.
 
     Raises:
         LogError: the log lacks the attachments that the report stands on.
@@ -77,19 +89,27 @@ def write_report(log: RunLog, result: Result, folder: Path, language: LanguageCo
     """
     plan = log.plan()
     path = folder / REPORT_NAME
-    write_whole(path, html(report_document(log, result, plan), language_of(language)))
+    document = report_document(log, result, plan, evaluated, pictures)
+    write_whole(path, html(document, language_of(language)))
     return path
 
 
-def report_document(log: RunLog, result: Result, plan: Plan) -> Document:
+def report_document(
+    log: RunLog,
+    result: Result,
+    plan: Plan,
+    evaluated: Sequence[Evaluated] = (),
+    pictures: Rendered | None = None,
+) -> Document:
     """What the report of a flight says, in no language yet."""
     points = read_points(result, plan)
     works = works_of(log, plan)
     timeline = timeline_of(rows_of(log, Reference), plan)
     title = log.mission().title or result.mission
-    sections = [Section("summary", say("Summary"), summary(log, result, works, points))]
+    opening = summary(log, result, works, points, evaluated)
+    sections = [Section("summary", say("Summary"), opening), *pictures_sections(pictures)]
     if points:
-        content = survey_content(log, plan, points)
+        content = survey_content(log, result, plan, points, evaluated)
         sections.append(Section("survey", say("Corrosion survey"), content))
     sections += experiment_sections(log, result, plan, works, timeline)
     flight = _flight(log, result, plan, works, points, timeline)
@@ -118,7 +138,13 @@ def cover(log: RunLog, result: Result, works: Works, title: str) -> Cover:
     return Cover(kicker(works), title, mission.description, facts)
 
 
-def summary(log: RunLog, result: Result, works: Works, points: Sequence[ReadPoint]) -> list[Block]:
+def summary(
+    log: RunLog,
+    result: Result,
+    works: Works,
+    points: Sequence[ReadPoint],
+    evaluated: Sequence[Evaluated],
+) -> list[Block]:
     """Warnings, finding, key figures, checks, caveats."""
     checks = (
         checks_table(result.checks)
@@ -127,26 +153,25 @@ def summary(log: RunLog, result: Result, works: Works, points: Sequence[ReadPoin
     )
     return [
         *warnings(result, log.mission().expect_status),
-        *finding([*findings(points), *told(works, result)]),
+        *finding([*findings(points, evaluated), *told(works, result)]),
         key_figures(result, works, points),
         checks,
         Heading(say("What this report does not say")),
-        caveats(log, result, points),
+        caveats(log, result, points, evaluated),
     ]
 
 
-def survey_content(log: RunLog, plan: Plan, points: Sequence[ReadPoint]) -> list[Block]:
-    """The readings: map, tables, diagrams, and how they were taken."""
-    diagrams = [cumulative_figure(points), resistivity_figure(points)]
-    rule = sentences([strong(say("Rule of the combined verdict.")), Said(COMBINED_RULE)])
+def survey_content(
+    log: RunLog,
+    result: Result,
+    plan: Plan,
+    points: Sequence[ReadPoint],
+    evaluated: Sequence[Evaluated],
+) -> list[Block]:
+    """The readings: what was found, what is true where that is known, how they were taken."""
     return [
-        *drawn(map_figures(points, plan)),
-        points_table(points),
+        *evaluation_blocks(evaluated, points, result.scoring),
         *truth_table(points),
-        classes_table(points),
-        verdicts_table(points),
-        Paragraph(rule, "rule"),
-        *drawn((d for d in diagrams if d is not None), side_by_side=True),
         Heading(say("How the readings were taken")),
         method(log, plan),
     ]

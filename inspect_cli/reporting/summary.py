@@ -6,6 +6,9 @@ from collections.abc import Iterable, Iterator, Sequence
 
 from inspect_cli.log.reader import RunLog
 from inspect_cli.reporting.content import Block, Box, Boxes, Facts, Notes, Paragraph
+from inspect_cli.reporting.evaluated import Evaluated
+from inspect_cli.reporting.evaluation_told import few_readings, reading_caveats, told_of
+from inspect_cli.reporting.naming import named
 from inspect_cli.reporting.points import ReadPoint
 from inspect_cli.reporting.published import SOURCE, published_of
 from inspect_cli.reporting.recorded import recorded
@@ -71,9 +74,11 @@ def finding(told: Sequence[Text]) -> list[Block]:
     return [Paragraph(sentences([strong(first), *rest]), "finding")]
 
 
-def findings(points: Sequence[ReadPoint]) -> list[Text]:
-    """The finding of the readings in sentences: how much is valid, and what corrodes."""
-    return [_validity(points), *_corrosion(points)] if points else []
+def findings(points: Sequence[ReadPoint], evaluated: Sequence[Evaluated] = ()) -> list[Text]:
+    """The finding of the readings in sentences: how much is valid, what corrodes, and how much."""
+    if not points:
+        return []
+    return [_validity(points), *_corrosion(points), *told_of(evaluated)]
 
 
 def _validity(points: Sequence[ReadPoint]) -> Text:
@@ -112,7 +117,7 @@ def _active(labels: Sequence[str]) -> Iterator[Text]:
             len(labels),
             "Active corrosion is indicated at point {labels}.",
             "Active corrosion is indicated at points {labels}.",
-            labels=Listed(tuple(labels)),
+            labels=named(labels),
         )
 
 
@@ -124,14 +129,14 @@ def _slow(labels: Sequence[str]) -> Iterator[Text]:
             "possible.",
             "By potential alone (ASTM C876) points {labels} are active; the combined rule calls "
             "them possible.",
-            labels=Listed(tuple(labels)),
+            labels=named(labels),
         )
 
 
 def _possible(labels: Sequence[str], *, known: bool) -> Iterator[Text]:
     if not labels:
         return
-    where = Listed(tuple(labels))
+    where = named(labels)
     if known:
         yield count(
             len(labels),
@@ -179,27 +184,6 @@ def is_simulated(log: RunLog) -> bool:
     return log.seed is not None or log.truth() is not None
 
 
-OF_READINGS = (
-    say(
-        "ASTM C876 leaves the interpretation to a specialist who also knows the chloride content, "
-        "the depth of carbonation, delamination, the rate of corrosion and the exposure of the "
-        "structure. Potentials alone do not give the rate or the loss of steel."
-    ),
-    say(
-        "The class boundaries hold for uncoated steel in concrete that is not saturated; very dry, "
-        "carbonated or water-saturated concrete and coated bars shift the potentials."
-    ),
-    say(
-        "Potentials are against copper/copper sulphate (CSE) and are not corrected for temperature."
-    ),
-    say(
-        "A reading is valid only after sufficient force for sufficient time and a stable "
-        "potential. Invalid points are shown as such, never as values, and enter no statistics."
-    ),
-)
-FEW_READINGS = say(
-    "With fewer than 20 valid readings, shares and cumulative frequencies are coarse."
-)
 SIMULATED_READINGS = say(
     "This is a simulated flight. The readings come from a model of the specimen and of the probe, "
     "not from a structure."
@@ -220,16 +204,19 @@ PUBLISHED_ELSEWHERE = say(
 WITHOUT_TRUTH = say("Without the truth, errors are against what the vehicle itself believed.")
 
 
-def caveats(log: RunLog, result: Result, points: Sequence[ReadPoint]) -> Notes:
+def caveats(
+    log: RunLog,
+    result: Result,
+    points: Sequence[ReadPoint],
+    evaluated: Sequence[Evaluated] = (),
+) -> Notes:
     """What the numbers do not say."""
     read = sum(p.point.potential_mv is not None for p in points)
     notes: list[Text] = []
     if is_simulated(log):
         notes += [SIMULATED_READINGS] if points else [SIMULATED, TRUTH_IS_SEEN]
     if points:
-        notes += OF_READINGS
-    if 0 < read < 20:
-        notes.append(FEW_READINGS)
+        notes += [*reading_caveats(evaluated), *few_readings(read)]
     if any(published_of(check.ref) for check in result.checks):
         notes.append(PUBLISHED_ELSEWHERE)
     return Notes(notes or [WITHOUT_TRUTH], "caveats")

@@ -16,9 +16,11 @@ from inspect_cli.reporting.content import (
     Table,
     drawn,
 )
+from inspect_cli.reporting.evaluated import Evaluated
 from inspect_cli.reporting.figures_survey import energy_figure, tour_figures
 from inspect_cli.reporting.html import html
 from inspect_cli.reporting.language import language as language_of
+from inspect_cli.reporting.pictures import Rendered, pictures_sections
 from inspect_cli.reporting.points import read_points
 from inspect_cli.reporting.provenance import provenance
 from inspect_cli.reporting.recorded import recorded
@@ -54,6 +56,8 @@ def write_survey_report(
     survey: CoveragePlan,
     folder: Path,
     language: LanguageCode = "en",
+    evaluated: Sequence[Evaluated] = (),
+    pictures: Rendered | None = None,
 ) -> Path:
     """Write ``report.html`` into ``folder``; return the page's path.
 
@@ -64,28 +68,37 @@ def write_survey_report(
         survey: as it was flown, with the sorties that were added on the way.
         folder: holds the sorties' own reports in folders of their own.
         language: of the page.
+        evaluated: the readings of each surface, of all sorties together.
+        pictures: what was rendered of the first sortie; None where none were wanted.
     """
     plan = survey.joined()
     path = folder / REPORT_NAME
-    document = survey_document(log, result, flown, survey, plan)
+    document = survey_document(log, result, flown, survey, plan, evaluated, pictures)
     write_whole(path, html(document, language_of(language)))
     return path
 
 
 def survey_document(
-    log: RunLog, result: Result, flown: Sequence[Result], survey: CoveragePlan, plan: Plan
+    log: RunLog,
+    result: Result,
+    flown: Sequence[Result],
+    survey: CoveragePlan,
+    plan: Plan,
+    evaluated: Sequence[Evaluated] = (),
+    pictures: Rendered | None = None,
 ) -> Document:
     """What the report of a survey says, in no language yet."""
     points = read_points(result, plan)
     title = log.mission().title or result.mission
     works = works_of(log, plan)
-    whole = [Paragraph(_extent(survey)), *summary(log, result, works, points)]
+    whole = [Paragraph(_extent(survey)), *summary(log, result, works, points, evaluated)]
     read = []
     if points:
-        content = survey_content(log, plan, points)
+        content = survey_content(log, result, plan, points, evaluated)
         read = [Section("survey", say("Corrosion survey"), content)]
     sections = [
         Section("summary", say("Summary"), whole),
+        *pictures_sections(pictures),
         *read,
         Section("coverage", say("Coverage"), _coverage(survey, plan)),
         Section("sorties", say("Sorties"), _sorties(survey, result, flown)),

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections import Counter
 from collections.abc import Sequence
 
 from inspect_cli.log.foxglove import Event
@@ -19,6 +18,7 @@ from inspect_cli.reporting.text import (
     code,
     number,
     say,
+    sentences,
     separated,
     significant,
     together,
@@ -26,15 +26,11 @@ from inspect_cli.reporting.text import (
 from inspect_cli.schema.plan import Plan, PlannedSurface
 from inspect_cli.schema.result import PointResult, Result
 
-ASTM_ROWS = (
-    ("passive", "E > −200 mV", say("more than 90 % that no reinforcement corrodes")),
-    ("uncertain", "−350 mV ≤ E ≤ −200 mV", say("not decided by the potential")),
-    ("active", "E < −350 mV", say("more than 90 % that reinforcement corrodes")),
-)
 QUIET_LEVELS = ("debug", "info")
 MANY_EVENTS = 12
 MOST_EVENTS = 1000
-CORROSION_ROWS = ("none", "possible", "active")
+MOST_POINTS = 1000
+"""Rows of a table of points; ``readings.csv`` has all of them."""
 TRUE_FIELDS = (
     "true_force_n",
     "true_force_peak_n",
@@ -42,45 +38,6 @@ TRUE_FIELDS = (
     "true_potential_mv",
     "true_corrosion",
 )
-
-
-def points_table(points: Sequence[ReadPoint]) -> Table:
-    """Every point: where, what was read, what it means, how it was touched."""
-    columns = [
-        Column(say("Point")),
-        Column(say("Surface")),
-        Column("u", "m", numeric=True),
-        Column("v", "m", numeric=True),
-        Column(say("Potential"), "mV CSE", numeric=True),
-        Column("ASTM C876"),
-        Column(say("Resistance"), "Ω", numeric=True),
-        Column(say("Resistivity"), "Ω·m", numeric=True),
-        Column(say("Corrosion"), say("combined")),
-        Column(say("Probe force"), "N", numeric=True),
-        Column(say("Contact"), "s", numeric=True),
-        Column(say("Validity"), prose=True),
-    ]
-    return Table(say("Readings by point."), columns, [_point_row(p) for p in points], wide=True)
-
-
-def _point_row(p: ReadPoint) -> list[Text]:
-    point = p.point
-    u, v = point.uv_m or (None, None)
-    invalid = say("invalid: {reason}", reason=p.reason)
-    return [
-        point.label,
-        p.surface or NOTHING,
-        number(u, 3),
-        number(v, 3),
-        number(point.potential_mv, 0),
-        _class_chip(point.astm_class),
-        number(point.resistance_ohm, 0),
-        number(point.resistivity_ohm_m, 0),
-        _class_chip(point.corrosion),
-        number(point.probe_force_n, 2),
-        number(point.contact_s, 1),
-        say("valid") if point.valid else Chip(invalid, "fail"),
-    ]
 
 
 def truth_table(points: Sequence[ReadPoint]) -> list[Block]:
@@ -99,10 +56,23 @@ def truth_table(points: Sequence[ReadPoint]) -> list[Block]:
         Column(say("Peak"), "N", numeric=True),
         Column(say("Off target"), "mm", numeric=True),
     ]
-    caption = say(
+    told = say(
         "Readings against the truth of the simulation, which no part of the vehicle could see."
     )
-    return [Table(caption, columns, [_truth_row(p.point) for p in points], wide=True)]
+    shown = points[:MOST_POINTS]
+    caption = sentences([told, rows_left_out(len(points))])
+    return [Table(caption, columns, [_truth_row(p.point) for p in shown], wide=True)]
+
+
+def rows_left_out(points: int) -> Text:
+    """Which points a table has no row for; nothing where it has all."""
+    if points <= MOST_POINTS:
+        return ""
+    return say(
+        "The first {shown} of {n} points; readings.csv beside this report has all of them.",
+        shown=number(MOST_POINTS, 0),
+        n=number(points, 0),
+    )
 
 
 def _truth_row(point: PointResult) -> list[Text]:
@@ -113,61 +83,20 @@ def _truth_row(point: PointResult) -> list[Text]:
         number(point.true_potential_mv, 0),
         number(point.resistivity_ohm_m, 0),
         number(point.true_resistivity_ohm_m, 0),
-        _class_chip(point.corrosion),
-        _class_chip(point.true_corrosion),
+        class_chip(point.corrosion),
+        class_chip(point.true_corrosion),
         number(point.true_force_n, 2),
         number(point.true_force_peak_n, 2),
         number(None if off_m is None else 1e3 * off_m, 1),
     ]
 
 
-def _class_chip(name: str | None) -> Text:
+def class_chip(name: str | None) -> Text:
     """The class in words with its colour; ``none`` corrosion has the passive class's."""
     if name is None:
         return NOTHING
     kind = {"none": "passive", "possible": "uncertain"}.get(name, name)
     return Chip(recorded(name), kind)
-
-
-def classes_table(points: Sequence[ReadPoint]) -> Table:
-    """How many valid readings fall in each class of ASTM C876."""
-    counts = Counter[str](p.point.astm_class for p in points if p.point.astm_class is not None)
-    total = sum(counts.values())
-    rows: list[list[Text]] = [
-        [
-            _class_chip(name),
-            limits,
-            meaning,
-            number(counts[name], 0),
-            together(number(100 * counts[name] / total, 0), " %") if total else NOTHING,
-        ]
-        for name, limits, meaning in ASTM_ROWS
-    ]
-    invalid = sum(1 for p in points if p.point.astm_class is None)
-    not_counted = say("no value; not counted in the shares")
-    rows.append([say("invalid"), NOTHING, not_counted, number(invalid, 0), NOTHING])
-    columns = [
-        Column(say("Class")),
-        Column(say("Potential against CSE")),
-        Column(say("Probability at the time of measurement"), prose=True),
-        Column(say("Readings"), numeric=True),
-        Column(say("Share"), numeric=True),
-    ]
-    return Table(say("Classes of ASTM C876 (numeric magnitude technique)."), columns, rows)
-
-
-def verdicts_table(points: Sequence[ReadPoint]) -> Table:
-    """How many valid readings have each combined verdict, and which."""
-    rows: list[list[Text]] = []
-    for name in CORROSION_ROWS:
-        own = [p.point.label for p in points if p.point.corrosion == name]
-        rows.append([_class_chip(name), number(len(own), 0), ", ".join(own) or NOTHING])
-    columns = [
-        Column(say("Corrosion")),
-        Column(say("Readings"), numeric=True),
-        Column(say("Points"), prose=True),
-    ]
-    return Table(say("Combined verdict of potential and resistivity."), columns, rows)
 
 
 def metrics_table(caption: Text, result: Result, groups: Sequence[str]) -> list[Block]:

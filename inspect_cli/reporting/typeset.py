@@ -49,6 +49,8 @@ PROGRAM = "paper.typ"
 PAGE_MM = 170.0
 """Between the margins of an upright page."""
 HALF_PAGE_MM = 82.0
+TALL = 1.3
+"""Height over width of a map from which two stand side by side."""
 PICTURE_MM = 120.0
 """Greatest height of a picture."""
 RUNNING_TITLE = 90
@@ -241,5 +243,6 @@ class _Paper:
 
 
 def _needs_width(figure: Figure) -> bool:
-    """Whether half a page is too narrow: maps, and panels over time."""
-    return has_equal_scales(figure.layout) or "yaxis2" in figure.layout
+    """Whether half a page is too narrow: maps that are not tall, and panels over time."""
+    tall = figure.slope is not None and figure.slope > TALL
+    return (has_equal_scales(figure.layout) and not tall) or "yaxis2" in figure.layout

@@ -1,0 +1,120 @@
+"""Tables of places: minima by the gradient criterion, and where to read more closely."""
+
+from __future__ import annotations
+
+from inspect_cli.reporting.content import Block, Column, Paragraph, Table
+from inspect_cli.reporting.recorded import recorded
+from inspect_cli.reporting.text import Text, count, number, say, sentences, together
+from inspect_cli.schema.assessment import GradientFindings, Minimum, RefinementFindings
+
+PLACE = (
+    Column("u", "m", numeric=True),
+    Column("v", "m", numeric=True),
+)
+
+
+def gradient_blocks(found: GradientFindings) -> list[Block]:
+    """The minima, how they rise, and which are judged active; or why there are none."""
+    told = sentences([judged(found), _not_judged(found)])
+    if not found.steepest:
+        return [Paragraph(told, "note")]
+    columns = [
+        Column(say("Point")),
+        *PLACE,
+        Column(say("Potential"), "mV CSE", numeric=True),
+        Column(say("Rise within 1 m"), "mV", numeric=True),
+        Column(say("100 mV higher at"), "m", numeric=True),
+        Column(say("Gradient criterion")),
+    ]
+    caption = sentences(
+        [
+            say(
+                "Negative minima of the potential and how it rises around them (RILEM TC 154-EMC: "
+                "100 mV within 1 m of a minimum is active corrosion)."
+            ),
+            _listed(len(found.steepest), found.minima),
+        ]
+    )
+    return [Paragraph(told), Table(caption, columns, [_minimum(m) for m in found.steepest])]
+
+
+def judged(found: GradientFindings) -> Text:
+    """The gradient criterion in one sentence."""
+    if found.minima == 0:
+        return say("The gradient criterion finds nothing to judge: {why}.", why=recorded(found.why))
+    return count(
+        found.minima,
+        "Of {n} negative minimum {active} rises by at least 100 mV within 1 m and indicates active "
+        "corrosion by the gradient criterion (RILEM TC 154-EMC).",
+        "Of {n} negative minima {active} rise by at least 100 mV within 1 m and indicate active "
+        "corrosion by the gradient criterion (RILEM TC 154-EMC).",
+        active=number(found.active, 0),
+    )
+
+
+def _not_judged(found: GradientFindings) -> Text:
+    if found.not_judged == 0:
+        return say("{why}.", why=recorded(found.why)) if found.why and found.minima else ""
+    return count(
+        found.not_judged,
+        "{n} has no other reading within 1 m and is not judged.",
+        "{n} have no other reading within 1 m and are not judged.",
+    )
+
+
+def _minimum(found: Minimum) -> list[Text]:
+    verdict: Text = say("active") if found.active else say("not active")
+    if found.rise_mv is None:
+        verdict = say("not judged")
+    return [
+        found.label,
+        *(number(x, 3) for x in found.uv_m),
+        number(found.potential_mv, 0),
+        number(found.rise_mv, 0),
+        number(found.rise_within_m, 2),
+        verdict,
+    ]
+
+
+def _listed(shown: int, total: int) -> Text:
+    if shown >= total:
+        return ""
+    return say("The {shown} steepest of {n}.", shown=number(shown, 0), n=number(total, 0))
+
+
+def refinement_blocks(found: RefinementFindings) -> list[Block]:
+    """Where neighbours differ too much for the spacing of the readings; or that they do not."""
+    if found.why:
+        why = say("No closer spacing can be proposed: {why}.", why=recorded(found.why))
+        return [Paragraph(why, "note")]
+    if found.total == 0:
+        nowhere = say(
+            "No two neighbours differ by more than 150 mV: ASTM C876 asks for no closer spacing."
+        )
+        return [Paragraph(nowhere)]
+    columns = [
+        Column(say("Between")),
+        *PLACE,
+        Column(say("Difference"), "mV", numeric=True),
+    ]
+    rows: list[list[Text]] = [
+        [
+            together(p.between[0], " – ", p.between[1]),
+            *(number(x, 3) for x in p.uv_m),
+            number(p.difference_mv, 0),
+        ]
+        for p in found.greatest
+    ]
+    caption = sentences(
+        [
+            count(
+                found.total,
+                "Where to read more closely: {n} pair of neighbours differs by more than 150 mV "
+                "(ASTM C876).",
+                "Where to read more closely: {n} pairs of neighbours differ by more than 150 mV "
+                "(ASTM C876).",
+            ),
+            _listed(len(found.greatest), found.total),
+        ]
+    )
+    return [Table(caption, columns, rows)]
