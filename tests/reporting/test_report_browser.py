@@ -32,7 +32,8 @@ WIDE = """
 (limit) => [...document.body.querySelectorAll("*")].filter(function (element) {
   const style = getComputedStyle(element);
   const box = element.getBoundingClientRect();
-  return box.width && style.visibility !== "hidden" && !element.closest(".scroll *, .js-plotly-plot *, #js-plotly-tester, nav *")
+  const apart = ".scroll *, .js-plotly-plot *, #js-plotly-tester, nav *";
+  return box.width && style.visibility !== "hidden" && !element.closest(apart)
     && (box.right > limit + 1 || box.left < -1);
 }).map((element) => `${element.tagName}.${element.className} ${element.textContent.slice(0, 60)}`)
 """
@@ -61,7 +62,8 @@ CUT = """
 """Texts of figures that reach out of their figure."""
 SPARE = """
 () => [...document.querySelectorAll(".js-plotly-plot")].filter((plot) =>
-  plot._fullLayout.yaxis?.scaleanchor && plot._fullLayout._size.h - plot._fullLayout.yaxis._length > 2
+  plot._fullLayout.yaxis?.scaleanchor
+    && plot._fullLayout._size.h - plot._fullLayout.yaxis._length > 2
 ).map((plot) => plot.id)
 """
 """Figures at equal scales that leave height empty."""

@@ -28,7 +28,7 @@ from inspect_cli.records import (
 )
 from inspect_cli.reporting.html import html
 from inspect_cli.reporting.language import language
-from inspect_cli.reporting.report import report_document, write_report
+from inspect_cli.reporting.report import report_document
 from inspect_cli.schema.result import Metric
 
 Fly = Callable[..., Flight]
@@ -236,13 +236,6 @@ def test_one_point_and_other_vehicles(fly: Fly, report: Report) -> None:
     assert len(panels) == 2  # thrust and saturation; a vehicle without joints has no third
     page = report(fly(1, 2, n_rotors=8, n_joints=11)).page
     assert len(page.figures["actuators"]["data"]) == 2 * (8 + 11) + 1
-
-
-def test_write_report_returns_the_page(fly: Fly, tmp_path) -> None:
-    log = fly(1, 1).log()
-    path = write_report(log, evaluate(log), tmp_path / "new" / "folder")
-    assert path == tmp_path / "new" / "folder" / "report.html"
-    assert sorted(p.name for p in path.parent.iterdir()) == ["report.html"]
 
 
 def test_points_active_by_potential_alone_are_named(fly: Fly, report: Report) -> None:
