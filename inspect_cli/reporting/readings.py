@@ -23,7 +23,7 @@ from inspect_cli.reporting.evaluation_told import few_readings, reading_caveats
 from inspect_cli.reporting.points import ReadPoint
 from inspect_cli.reporting.recorded import recorded
 from inspect_cli.reporting.summary import finding, findings, reading_boxes
-from inspect_cli.reporting.text import Text, code, number, say, sentences, together
+from inspect_cli.reporting.text import Text, code, number, say, together
 from inspect_cli.schema.readings import ReadingsResult
 from inspect_cli.schema.result import PointResult
 from inspect_cli.schema.survey import SurveySettings
@@ -98,7 +98,6 @@ def _method(result: ReadingsResult) -> list[Block]:
         (say("Unit of the potentials in the file"), settings.potential_unit),
         *_sign(settings),
         *_spacing(settings),
-        (say("Map"), sentences(recorded(how) for how in result.map)),
     ]
     blocks: list[Block] = [Facts(facts)]
     if result.assumed:
