@@ -95,12 +95,6 @@ RECORDED: tuple[Said, ...] = (
     say("no valid reading has a resistance"),
     # Why a metric of the assessment has no value.
     say("no point to read lies on a known surface"),
-    say("nothing was read"),
-    say("a single place has no spacing; state the pitch"),
-    say("valid readings: {n}; two populations ask for at least {least}"),
-    say("all readings are equal to their resolution"),
-    say("a second population does not lower the BIC by more than 10"),
-    say("one population prevails between the means"),
     say("several surfaces have populations of their own"),
     say("there is no threshold between two populations"),
     say("the points of all sorties were not looked at together"),
