@@ -7,6 +7,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+from evaluated_points import evaluated_of
 from example_flights import Flight, survey
 from report_pages import Page, Reported
 
@@ -21,7 +22,8 @@ def report(tmp_path: Path) -> Callable[[Flight], Reported]:
     def write(flight: Flight) -> Reported:
         log = flight.log()
         result = evaluate(log)
-        path = write_report(log, result, tmp_path)
+        evaluated = evaluated_of(result, flight.plan)
+        path = write_report(log, result, tmp_path, evaluated=evaluated)
         return Reported(flight, result, path, Page(path.read_text(encoding="utf-8")))
 
     return write

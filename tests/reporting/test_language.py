@@ -9,6 +9,7 @@ from pathlib import Path
 
 import pytest
 from babel.messages.pofile import read_po
+from evaluated_points import evaluated_of
 from example_flights import Flight, spoil
 from experiment_flights import drawing, force_evaluation, hold, servoing
 from report_pages import Page, Reported
@@ -103,7 +104,8 @@ def surveyed(flight: Flight) -> Document:
     )
     survey = CoveragePlan.of(sorties, [left], 12.3, 40.0)
     late = result.model_copy(update={"status": "aborted", "status_reason": "das Seil riss"})
-    return survey_document(log, result, [result, late], survey, flight.plan)
+    evaluated = evaluated_of(result, flight.plan)
+    return survey_document(log, result, [result, late], survey, flight.plan, evaluated)
 
 
 def studied() -> Document:
@@ -166,7 +168,9 @@ def test_no_word_of_a_flights_report_is_left_in_english(
 ) -> None:
     flight = FLIGHTS[name](fly, platform_file)
     log = flight.log()
-    document = report_document(log, evaluate(log), flight.plan)
+    result = evaluate(log)
+    evaluated = evaluated_of(result, flight.plan)
+    document = report_document(log, result, flight.plan, evaluated)
     page = Page(html(document, Pseudo.made()))
     assert left_over(page, foreign(flight)) == []
 
@@ -193,7 +197,8 @@ def test_german_has_its_own_signs(fly: Fly, report: Report, tmp_path: Path) -> N
     flight = fly(acceptance=ACCEPTANCE)
     log, english = flight.log(), report(flight)
     readings = (tmp_path / "readings.csv").read_bytes()
-    path = write_report(log, english.result, tmp_path, "de")
+    evaluated = evaluated_of(english.result, flight.plan)
+    path = write_report(log, english.result, tmp_path, "de", evaluated)
     page = Page(path.read_text(encoding="utf-8"))
     assert '<html lang="de">' in page.source
     assert '<html lang="en">' in english.page.source

@@ -26,6 +26,7 @@ UNITS = {
     "A",
     "N",
     "m",
+    "m²",
     "mm",
     "mrad",
     "rad",
@@ -37,7 +38,7 @@ UNITS = {
     "cm",
     "Ω",
 }
-SYMBOLS = {*"abuvxyzEFRfτθ", "Δ", "K", "K_I", "e"}
+SYMBOLS = {*"abuvxyzEFRfρτθ", "Δ", "K", "K_I", "e"}
 NAMES = {"ASTM", "C", "SHA", "RMS"}
 """What every language writes alike: units, symbols, names of standards."""
 SHOWN_KEYS = {"text", "title", "name", "ticktext", "customdata", "hovertemplate", "x", "y"}
