@@ -17,7 +17,8 @@ from typing import Final, Literal, TypeAlias, TypeVar, get_args
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from inspect_cli.schema.result import AstmClass, Corrosion
+from inspect_cli.schema.assessment import AstmClass
+from inspect_cli.schema.result import Corrosion
 from inspect_cli.spatial.arrays import Vector
 
 PASSIVE_ABOVE_V = -0.200

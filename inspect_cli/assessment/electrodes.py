@@ -94,6 +94,30 @@ def temperature_correction_v(temperature_c: float) -> float:
     return COEFFICIENT_V_PER_C * (temperature_c - STANDARD_C)
 
 
+def electrode_shift_v(electrode: str, temperature_c: float = STANDARD_C) -> float:
+    """What is added to what a CSE reads to have what ``electrode`` reads at the same place, V.
+
+    A CSE in concrete at T reads 0.9 mV/°C (T − 22.2 °C) less than at 22.2 °C. Another electrode
+    reads less by the same amount not at all, its own coefficient being neglected (``basis_of``):
+
+        E_ref = E_CSE(T) + 0.9 mV/°C (T − 22.2 °C) − (E°_ref − E°_CSE)
+    """
+    name = electrode_name(electrode)
+    if name == CSE:
+        return 0.0
+    return COEFFICIENT_V_PER_C * (temperature_c - STANDARD_C) - conversion_v(name)
+
+
+def as_evaluated(potential_v: ArrayLike, basis: Basis) -> Vector:
+    """What perfect readings come to where a CSE would read ``potential_v``, V, of any shape.
+
+    They are evaluated as readings are: with the basis's electrode and its stated temperature.
+    """
+    temperature_c = STANDARD_C if basis.temperature_c is None else basis.temperature_c
+    shift_v = electrode_shift_v(basis.electrode, temperature_c)
+    return to_standard(np.asarray(potential_v, dtype=np.float64) + shift_v, basis)
+
+
 def basis_of(electrode: str, temperature_c: float | None = None) -> Basis:
     """What readings against ``electrode`` at ``temperature_c`` °C (None: not known) rest on.
 

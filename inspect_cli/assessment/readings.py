@@ -63,8 +63,11 @@ class Readings:
         )
 
 
-def readings_of(points: Iterable[PointResult], measurement_sd_v: float) -> Readings:
-    """The points of a result as arrays; those without a place on the surface are left out."""
+def readings_of(points: Iterable[PointResult], measurement_sd_v: float | Vector) -> Readings:
+    """The points of a result as arrays; those without a place on the surface are left out.
+
+    ``measurement_sd_v`` is one number, or (n,) for the points that have a place.
+    """
     placed = [p for p in points if p.uv_m is not None]
     potential = [np.nan if p.potential_mv is None else 1e-3 * p.potential_mv for p in placed]
     rho = [np.nan if p.resistivity_ohm_m is None else p.resistivity_ohm_m for p in placed]
@@ -73,7 +76,7 @@ def readings_of(points: Iterable[PointResult], measurement_sd_v: float) -> Readi
         uv_m=np.array([p.uv_m for p in placed], dtype=np.float64).reshape(-1, 2),
         potential_v=np.array(potential, dtype=np.float64),
         resistivity_ohm_m=np.array(rho, dtype=np.float64),
-        measurement_sd_v=np.full(len(placed), measurement_sd_v),
+        measurement_sd_v=np.full(len(placed), measurement_sd_v, dtype=np.float64),
     )
 
 
@@ -101,7 +104,8 @@ def merged(readings: Readings) -> Merged:
     Its potential is the mean of its valid readings: the spread of the place over the root of their
     number then is the standard uncertainty for any number of them (GUM, 4.2). Its resistivity is
     their median, as that of five readings around a place is in practice. Its own measurement's
-    standard uncertainty is the root mean square of theirs, because drift does not average out.
+    standard uncertainty is the root mean square of the valid ones', because drift does not average
+    out.
     """
     keys = np.round(readings.uv_m, SAME_PLACE_DECIMALS) + 0.0  # −0 is 0
     _, first, member = np.unique(keys, axis=0, return_index=True, return_inverse=True)
@@ -119,9 +123,7 @@ def merged(readings: Readings) -> Merged:
             uv_m=points.uv_m,
             potential_v=_means(at, value, counts),
             resistivity_ohm_m=_medians(member, readings.resistivity_ohm_m, len(first)),
-            measurement_sd_v=np.sqrt(
-                _means(member, readings.measurement_sd_v**2, np.bincount(member))
-            ),
+            measurement_sd_v=np.sqrt(_means(at, readings.measurement_sd_v[valid] ** 2, counts)),
         )
     squares = np.bincount(at, (value - points.potential_v[at]) ** 2, len(first))
     freedom = int(np.sum(np.maximum(counts - 1, 0)))

@@ -18,9 +18,11 @@ from collections.abc import Iterator
 import numpy as np
 
 from inspect_cli.assessment.classes import astm_class, combined_verdict, resistivity
+from inspect_cli.assessment.electrodes import as_evaluated
 from inspect_cli.commands.sweeps import Sampled, Variant
 from inspect_cli.errors import InputError, Location, Problem
 from inspect_cli.log.rasters import TrueRaster
+from inspect_cli.metrics.assessed import basis_on
 from inspect_cli.metrics.cells import Cells, cells_around, in_squares, nearest_to
 from inspect_cli.metrics.truth_scoring import Judged, score_surface
 from inspect_cli.planning.lattice import lattice
@@ -117,6 +119,8 @@ class PitchSampler:
         across = np.column_stack([self._raster.across(places[:, 1]), np.ones(len(places))])
         volts, ohm_m, _ = self._beneath.at(places + error / across)
         rate_hz = platform.rates.probe_hz
+        basis = basis_on(mission, self._work.on, probe.electrode)
+        volts = as_evaluated(volts, basis)
         volts, ohms = steady_readings(probe, volts, ohm_m, rate_hz, work.dwell_s, rng)
         missed = np.hypot(*error.T) > work.off_target_m
         for volt, ohm, off in zip(volts.tolist(), ohms.tolist(), missed, strict=True):

@@ -51,7 +51,7 @@ def _report_one(run: Path, folder: Path, language: LanguageCode, pictures: bool)
     result = evaluate(log)
     folder.mkdir(parents=True, exist_ok=True)
     write_model(folder / "metrics.json", result)
-    write_readings(folder, result, log.plan())
+    write_readings(folder, result)
     taken = pictured(log, result, folder, language, wanted=pictures)
     return ReportOutcome(result, write_report(log, result, folder, language), taken)
 

@@ -22,7 +22,6 @@ from inspect_cli.errors import InputError
 from inspect_cli.exchange.readings_csv import readings_csv
 from inspect_cli.files import write_whole
 from inspect_cli.pictures.names import FILM_NAME, SCENE_NAME
-from inspect_cli.schema.plan import Plan
 from inspect_cli.schema.result import Result
 
 LOG_NAME = "flight.mcap"
@@ -109,7 +108,6 @@ def write_json(path: Path, data: object) -> None:
     write_whole(path, (json.dumps(data, indent=1, sort_keys=True) + "\n").encode())
 
 
-def write_readings(folder: Path, result: Result, plan: Plan) -> None:
+def write_readings(folder: Path, result: Result) -> None:
     """Write ``readings.csv`` of a run into its folder."""
-    surfaces = {target.index: target.surface for target in plan.targets}
-    write_whole(folder / READINGS_NAME, readings_csv(result.points, surfaces))
+    write_whole(folder / READINGS_NAME, readings_csv(result.points))

@@ -31,6 +31,8 @@ from inspect_cli.reporting.figures_pitch import (
     cost_figure,
     pitch_figure,
 )
+from inspect_cli.reporting.pitch_findings import OF_AREA, OF_SITES, UNSTEADY, Thresholds, written
+from inspect_cli.reporting.text import say
 from inspect_cli.schema.coverage import CoveragePlan
 from inspect_cli.schema.loading import Loaded
 from inspect_cli.schema.plan import Plan
@@ -127,12 +129,9 @@ def _planned(plan: Plan) -> Points:
 def _concluded(result: StudyResult) -> StudyResult:
     """With the pitches at which area and sites are first missed, in numbers and in words."""
     pitches = result.sweep(result.quantities[0])
-    what = {
-        DETECTED: "of the truly active area is judged active",
-        SITES: "of the sites are found",
-    }
-    thresholds = tuple(_threshold(result, pitches, metric) for metric in what)
-    words = tuple(_in_words(pitches, threshold, what[threshold.metric]) for threshold in thresholds)
+    said = {DETECTED: OF_AREA, SITES: OF_SITES}
+    thresholds = tuple(_threshold(result, pitches, metric) for metric in said)
+    words = tuple(_in_words(pitches, threshold, said[threshold.metric]) for threshold in thresholds)
     slack = tuple(_unsteady(pitches))
     return result.model_copy(update={"thresholds": thresholds, "findings": words + slack})
 
@@ -143,34 +142,23 @@ def _threshold(result: StudyResult, pitches: tuple[StudyVariant, ...], metric: s
     return Threshold(metric=metric, quantity=quantity, level=LEVEL, first_below=next(below, None))
 
 
-def _in_words(pitches: tuple[StudyVariant, ...], threshold: Threshold, what: str) -> str:
-    subject = "Detection" if threshold.metric == DETECTED else "Detection of whole sites"
-    level = f"{100.0 * threshold.level:g} %"
-    told = [
-        (variant.values[threshold.quantity], _percent(variant, threshold.metric))
-        for variant in pitches
-    ]
-    at = [pitch for pitch, _ in told]
-    if threshold.first_below is None:
-        return (
-            f"{subject} stays at {level} or above up to the widest pitch, {shortest(at[-1])} m: "
-            f"{told[-1][1]} {what} there."
-        )
-    k = at.index(threshold.first_below)
-    here = f"{told[k][1]} {what} there"
-    if k == 0:
-        return (
-            f"{subject} is below {level} at the finest pitch already, {shortest(at[0])} m: {here}."
-        )
-    return (
-        f"{subject} first drops below {level} at a pitch of {shortest(at[k])} m: {here}, "
-        f"{told[k - 1][1]} at {shortest(at[k - 1])} m."
-    )
+def _in_words(pitches: tuple[StudyVariant, ...], threshold: Threshold, said: Thresholds) -> str:
+    at = [variant.values[threshold.quantity] for variant in pitches]
+    first = threshold.first_below
+    k = len(at) - 1 if first is None else at.index(first)
+    share, error = _percent(pitches[k], threshold.metric)
+    level, pitch = f"{100.0 * threshold.level:g}", shortest(at[k])
+    here = {"level": level, "pitch": pitch, "share": share, "error": error}
+    if first is None or k == 0:
+        return written(said.never if first is None else said.always, **here)
+    before, before_error = _percent(pitches[k - 1], threshold.metric)
+    finer = shortest(at[k - 1])
+    return written(said.first, **here, before=before, before_error=before_error, finer=finer)
 
 
-def _percent(variant: StudyVariant, metric: str) -> str:
+def _percent(variant: StudyVariant, metric: str) -> tuple[str, str]:
     value, error = variant.value(metric) or 0.0, variant.standard_errors.get(metric, 0.0)
-    return f"{100.0 * value:.1f} ± {100.0 * error:.1f} %"
+    return f"{100.0 * value:.1f}", f"{100.0 * error:.1f}"
 
 
 def _unsteady(pitches: tuple[StudyVariant, ...]) -> Iterator[str]:
@@ -180,15 +168,12 @@ def _unsteady(pitches: tuple[StudyVariant, ...]) -> Iterator[str]:
         errors = (v.standard_errors.get(MISSED, 0.0) for v in (finer, wider))
         if gain > 2.0 * math.hypot(*errors):
             a, b = (shortest(v.values["pitch"]) for v in (finer, wider))
-            yield (
-                f"The grid of {b} m missed less area than that of {a} m, by more than twice the "
-                "standard error: active sites on this surface lie in step with the grid."
-            )
+            yield written(UNSTEADY, wider=b, finer=a)
 
 
 PITCH = Study(
     title="Pitch of the grid: cost against detection",
-    explained=(
+    explained=say(
         "The pitch of the grid is varied over the region that the mission covers. Points, sorties, "
         "time and energy are planned. What is found is sampled: the grid is laid onto the region "
         "with 20 offsets, stratified over one pitch along u and v, and the readings are simulated "

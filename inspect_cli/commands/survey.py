@@ -14,6 +14,7 @@ from inspect_cli.commands.flying import FlightInterrupted, Progress, fly_into, t
 from inspect_cli.commands.plan import surveyor_of
 from inspect_cli.commands.runs import write_json, write_model
 from inspect_cli.log.rasters import TrueRaster
+from inspect_cli.metrics.assessed import assessor
 from inspect_cli.metrics.survey import joined_result, scorer
 from inspect_cli.planning.coverage import Surveyor
 from inspect_cli.planning.lattice import Place
@@ -85,10 +86,11 @@ def join(
     ``rasters`` are what is truly so, for the points of all sorties to be held against.
     """
     mission = loaded.mission
-    score_all = scorer(mission.tasks[0].on, rasters, mission)
+    score_all = scorer(rasters, mission)
     flown = sum(len(sortie.plan.targets) for sortie in survey.sorties[: len(results)])
     unvisited = survey.joined().targets[flown:]
-    return joined_result(results, unvisited, mission.acceptance, seed, score_all)
+    assess_all = assessor(mission, loaded.platform)
+    return joined_result(results, unvisited, mission.acceptance, seed, score_all, assess_all)
 
 
 class Refining:

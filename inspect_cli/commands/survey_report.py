@@ -11,6 +11,7 @@ from inspect_cli.commands.pictures import pictured
 from inspect_cli.commands.runs import LOG_NAME, SORTIES, log_of, write_model, write_readings
 from inspect_cli.errors import InputError, LogError
 from inspect_cli.log.reader import RunLog, read_log
+from inspect_cli.metrics.assessed import assessor
 from inspect_cli.metrics.evaluate import evaluate
 from inspect_cli.metrics.survey import joined_result, scorer
 from inspect_cli.pictures.take import Pictures
@@ -76,7 +77,7 @@ def report_survey(
         own = folder / sortie.folder
         own.mkdir(parents=True, exist_ok=True)
         write_model(own / "metrics.json", result)
-        write_readings(own, result, log.plan())
+        write_readings(own, result)
         write_report(log, result, own, language)
         results.append(result)
         first = first or log
@@ -86,10 +87,13 @@ def report_survey(
     plan = survey.joined()
     unvisited = plan.targets[flown:]
     mission = first.mission()
-    score_all = scorer(mission.tasks[0].on, first.true_rasters(), mission)
-    joined = joined_result(results, unvisited, mission.acceptance, _seed(run), score_all)
+    score_all = scorer(first.true_rasters(), mission)
+    assess_all = assessor(mission, first.platform())
+    joined = joined_result(
+        results, unvisited, mission.acceptance, _seed(run), score_all, assess_all
+    )
     write_model(folder / "metrics.json", joined)
-    write_readings(folder, joined, plan)
+    write_readings(folder, joined)
     which = f"sortie 1 of {len(results)}"
     taken = pictured(first, results[0], folder, language, wanted=pictures, flight=which)
     page = write_survey_report(first, joined, results, survey, folder, language)

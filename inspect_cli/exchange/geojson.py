@@ -95,7 +95,7 @@ def _columns(readings: HandedReadings) -> dict[str, Sequence[object]]:
     points = readings.points
     columns: dict[str, Sequence[object]] = {
         "label": [point.label for point in points],
-        "surface": [readings.surfaces.get(point.index) for point in points],
+        "surface": [point.surface or None for point in points],
         "u_m": [point.uv_m and point.uv_m[0] for point in points],
         "v_m": [point.uv_m and point.uv_m[1] for point in points],
     }

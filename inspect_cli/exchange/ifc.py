@@ -155,9 +155,8 @@ class _Model:
         )
         groups: dict[str, list[Any]] = {}
         for point, proxy in zip(self._readings.points, proxies, strict=True):
-            surface = self._readings.surfaces.get(point.index)
-            if surface is not None:
-                groups.setdefault(surface, []).append(proxy)
+            if point.surface:
+                groups.setdefault(point.surface, []).append(proxy)
         for surface, members in groups.items():
             group = make("IfcGroup", self._id(f"surface {surface}"), Name=surface)
             make(
@@ -269,7 +268,6 @@ def _content(readings: HandedReadings) -> str:
         digest.update(repr(part).encode())
     for point in readings.points:
         digest.update(point.model_dump_json().encode())
-        digest.update(repr(readings.surfaces.get(point.index)).encode())
     return digest.hexdigest()
 
 

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
+from collections.abc import Sequence
+from dataclasses import dataclass
 
 from inspect_cli.schema.result import PointResult
 
@@ -18,8 +18,6 @@ class HandedReadings:
     points: Sequence[PointResult]
     title: str
     """Of the survey; names the project in a model of a building."""
-    surfaces: Mapping[int, str | None] = field(default_factory=dict)
-    """The name of each point's surface by the point's index."""
     structure: str | None = None
     """What was inspected; names the site."""
     date: str | None = None

@@ -10,6 +10,7 @@ from inspect_cli.metrics import (
     pull,
     tracking,
 )
+from inspect_cli.metrics.catalogue_assessment import ASSESSMENT_METRICS
 from inspect_cli.metrics.catalogue_estimation import ESTIMATION_METRICS
 from inspect_cli.metrics.catalogue_flight import FLIGHT_METRICS
 from inspect_cli.metrics.catalogue_scoring import SCORING_METRICS
@@ -326,5 +327,6 @@ METRICS: dict[str, MetricSpec] = {
     **FLIGHT_METRICS,
     **ESTIMATION_METRICS,
     **SLIDING_METRICS,
+    **ASSESSMENT_METRICS,
     **SCORING_METRICS,
 }

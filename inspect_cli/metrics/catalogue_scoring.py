@@ -7,7 +7,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 from inspect_cli.metrics.flight import Flight, NotMeasured
-from inspect_cli.metrics.joined import SCORED_ANEW
+from inspect_cli.metrics.joined import ANEW
 from inspect_cli.metrics.spec import MetricSpec
 from inspect_cli.metrics.truth_scoring import scoring_of
 from inspect_cli.records import Reading
@@ -104,6 +104,6 @@ def _function(score: Score) -> Callable[[Flight], float]:
 
 
 SCORING_METRICS: dict[str, MetricSpec] = {
-    name: MetricSpec(score.unit, _function(score), score.meaning, (Reading,), SCORED_ANEW)
+    name: MetricSpec(score.unit, _function(score), score.meaning, (Reading,), ANEW)
     for name, score in SCORES.items()
 }

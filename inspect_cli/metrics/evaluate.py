@@ -3,20 +3,27 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from inspect_cli.log.reader import RunLog
 from inspect_cli.metrics.acceptance import answer_all
+from inspect_cli.metrics.assessed import assess_points, with_uncertainty
 from inspect_cli.metrics.catalogue import METRICS
+from inspect_cli.metrics.catalogue_assessment import assessment_metrics
 from inspect_cli.metrics.catalogue_scoring import metrics_of
 from inspect_cli.metrics.flight import Flight, NotMeasured
 from inspect_cli.metrics.points import point_results
 from inspect_cli.metrics.spec import MetricSpec
 from inspect_cli.metrics.truth_scoring import scoring_of
 from inspect_cli.records import Reading
-from inspect_cli.schema.result import Metric, Result
+from inspect_cli.schema.result import Metric, PointResult, Result
 from inspect_cli.schema.scoring import Scoring
+
+if TYPE_CHECKING:
+    from inspect_cli.assessment.assess import Assessed
 
 
 def evaluate(log: RunLog) -> Result:
@@ -29,13 +36,16 @@ def evaluate(log: RunLog) -> Result:
         LogError: mission, platform or plan are not attached to the log.
     """
     flight = Flight(log)
-    mission = log.mission()
+    mission = flight.mission
     # The states of a diverged flight overflow; what is not finite is caught number by number.
     with np.errstate(all="ignore"):
         scoring = _scoring(flight)
-        scored = metrics_of(scoring) if scoring else {}
-        metrics = {n: scored.get(n) or measure(spec, flight) for n, spec in METRICS.items()}
         points = point_results(flight)
+        assessed = _assessed(flight, points)
+        known = metrics_of(scoring) if scoring else {}
+        known |= assessment_metrics(assessed) if assessed else {}
+        metrics = {n: known.get(n) or measure(spec, flight) for n, spec in METRICS.items()}
+        points = with_uncertainty(points, assessed)
     return Result(
         mission=mission.name,
         platform=log.platform().name,
@@ -46,7 +56,15 @@ def evaluate(log: RunLog) -> Result:
         metrics=metrics,
         points=points,
         scoring=scoring,
+        assessment=tuple(one.summary for one in assessed),
     )
+
+
+def _assessed(flight: Flight, points: Sequence[PointResult]) -> tuple[Assessed, ...]:
+    """The findings of every surface; none of a log that has no readings."""
+    if flight.log.rows(Reading) is None:
+        return ()
+    return assess_points(points, flight.mission, flight.platform.sensors.half_cell)
 
 
 def _scoring(flight: Flight) -> Scoring | None:

@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from inspect_cli.log.reader import RunLog
 from inspect_cli.records import Mode, Record, Reference, State
+from inspect_cli.schema.mission import Mission
 from inspect_cli.schema.plan import Plan, Target
 from inspect_cli.schema.vehicle import PlatformBase
 from inspect_cli.spatial.arrays import Mask, Structured, Vector
@@ -55,6 +56,11 @@ class Flight:
     def plan(self) -> Plan:
         """The plan that was flown."""
         return self.log.plan()
+
+    @cached_property
+    def mission(self) -> Mission:
+        """What the planner was told."""
+        return self.log.mission()
 
     @cached_property
     def platform(self) -> PlatformBase:

@@ -42,7 +42,8 @@ MEAN_OVER_POINTS = Joined("mean", "contact.points_total")
 MEAN_OVER_ENERGY = Joined("mean", "flight.energy_wh_flown")
 """Σ E x / Σ E: of ratios planned / flown this is the ratio of the sums."""
 RMS_OVER_TIME = Joined("rms", "flight.duration_s")
-SCORED_ANEW = Joined("anew")
-"""Is scored again over all points, because areas and sites of several flights overlap."""
+ANEW = Joined("anew")
+"""Is found again over all points: areas and sites of several flights overlap, and neighbours were
+read in different ones."""
 NOT_JOINED = Joined("none")
 """Says something of a single flight only."""

@@ -9,6 +9,8 @@ from typing import SupportsFloat
 import numpy as np
 
 from inspect_cli.assessment.classes import astm_class, combined_verdict, resistivity
+from inspect_cli.assessment.electrodes import as_evaluated, to_standard
+from inspect_cli.metrics.assessed import basis_on
 from inspect_cli.metrics.contact import position_error
 from inspect_cli.metrics.flight import Dwell, Flight, NotMeasured
 from inspect_cli.records import InvalidReason, Reading, TrueContact
@@ -26,6 +28,7 @@ class TrueValues:
     force_peak_n: float | None = None
     position_error_m: float | None = None
     potential_v: float | None = None
+    """As a CSE at the concrete's temperature would have read it."""
     resistivity_ohm_m: float | None = None
 
 
@@ -39,23 +42,28 @@ def point_results(flight: Flight) -> tuple[PointResult, ...]:
 
 def _point(flight: Flight, target: Target, reading: Structured | None) -> PointResult:
     probe = flight.platform.sensors.half_cell
+    basis = basis_on(flight.mission, target.surface, probe.electrode)
     true = true_values(flight, target)
-    potential_v = _read(reading, "potential")
-    valid = reading is not None and bool(reading["valid"] > 0.5) and potential_v is not None
+    read_v = _read(reading, "potential")
+    valid = reading is not None and bool(reading["valid"] > 0.5) and read_v is not None
     resistance_ohm = _read(reading, "resistance") if valid else None
     rho = None if resistance_ohm is None else resistivity(resistance_ohm, probe.cell_constant_m)
     if not valid:
-        potential_v = None
-    true_corrosion = None
+        read_v = None
+    potential_v = None if read_v is None else float(to_standard(read_v, basis))
+    true_potential_v, true_corrosion = None, None
     if true.potential_v is not None:
-        true_corrosion = combined_verdict(true.potential_v, true.resistivity_ohm_m)
+        true_potential_v = float(as_evaluated(true.potential_v, basis))
+        true_corrosion = combined_verdict(true_potential_v, true.resistivity_ohm_m)
     return PointResult(
         index=target.index,
         label=target.label,
         valid=valid,
         reason="" if valid else _reason(reading, flight.log.status, probe),
         p_W=_where(target, reading),
+        surface=target.surface or "",
         uv_m=target.uv_m,
+        read_mv=_millivolts(read_v),
         potential_mv=_millivolts(potential_v),
         resistance_ohm=resistance_ohm,
         resistivity_ohm_m=rho,
@@ -66,7 +74,7 @@ def _point(flight: Flight, target: Target, reading: Structured | None) -> PointR
         true_force_n=true.force_n,
         true_force_peak_n=true.force_peak_n,
         position_error_m=true.position_error_m,
-        true_potential_mv=_millivolts(true.potential_v),
+        true_potential_mv=_millivolts(true_potential_v),
         true_resistivity_ohm_m=true.resistivity_ohm_m,
         true_corrosion=true_corrosion,
     )

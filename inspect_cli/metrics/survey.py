@@ -3,10 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Sequence
+from typing import TYPE_CHECKING
 
 from inspect_cli.log.rasters import TrueRaster
 from inspect_cli.metrics.acceptance import answer_all
+from inspect_cli.metrics.assessed import AssessAll, with_uncertainty
 from inspect_cli.metrics.catalogue import METRICS
+from inspect_cli.metrics.catalogue_assessment import assessment_metrics
 from inspect_cli.metrics.catalogue_scoring import metrics_of
 from inspect_cli.metrics.flight import NotMeasured
 from inspect_cli.metrics.joined import Joined
@@ -15,6 +18,9 @@ from inspect_cli.schema.mission import Acceptance, Mission
 from inspect_cli.schema.plan import Target
 from inspect_cli.schema.result import Metric, PointResult, Result, Status
 from inspect_cli.schema.scoring import Scoring
+
+if TYPE_CHECKING:
+    from inspect_cli.assessment.assess import Assessed
 
 ScoreAll = Callable[[Sequence[PointResult]], Scoring | None]
 
@@ -29,6 +35,7 @@ def joined_result(
     acceptance: Iterable[Acceptance],
     seed: int | None,
     score_all: ScoreAll | None = None,
+    assess_all: AssessAll | None = None,
 ) -> Result:
     """The flights as one survey: all points, every metric by its rule, the mission's acceptance.
 
@@ -38,11 +45,13 @@ def joined_result(
         acceptance: of the mission.
         seed: of the whole run, from which those of the flights were drawn.
         score_all: holds all points together against what is truly so, where that is known.
+        assess_all: finds what all points together say (``assessed.assessor``).
     """
     first = results[0]
     points = tuple(_numbered([*_visited(results), *map(_never_read, unvisited)]))
     scoring = score_all(points) if score_all else None
-    metrics = joined_metrics(results, len(unvisited), scoring)
+    assessed = assess_all(points) if assess_all else ()
+    metrics = joined_metrics(results, len(unvisited), scoring, assessed)
     status, reason = _status(results, len(unvisited))
     return Result(
         mission=first.mission,
@@ -52,17 +61,18 @@ def joined_result(
         status_reason=reason,
         checks=answer_all(acceptance, metrics),
         metrics=metrics,
-        points=points,
+        points=with_uncertainty(points, assessed),
         scoring=scoring,
+        assessment=tuple(one.summary for one in assessed),
     )
 
 
-def scorer(surface: str | None, rasters: Sequence[TrueRaster], mission: Mission) -> ScoreAll:
-    """What scores all points of a survey of one surface; None where nothing can be scored."""
+def scorer(rasters: Sequence[TrueRaster], mission: Mission) -> ScoreAll:
+    """What scores all points of a survey; None where nothing can be scored."""
 
     def score_all(points: Sequence[PointResult]) -> Scoring | None:
         try:
-            return score([(surface, point) for point in points], rasters, mission)
+            return score(points, rasters, mission)
         except NotMeasured:
             return None
 
@@ -70,17 +80,21 @@ def scorer(surface: str | None, rasters: Sequence[TrueRaster], mission: Mission)
 
 
 def joined_metrics(
-    results: Sequence[Result], unvisited: int = 0, scoring: Scoring | None = None
+    results: Sequence[Result],
+    unvisited: int = 0,
+    scoring: Scoring | None = None,
+    assessed: Sequence[Assessed] = (),
 ) -> dict[str, Metric]:
     """Every metric of the flights by the rule that stands beside it in the catalogue.
 
     A metric that one of the flights does not have is not measured of the survey either. The
     ``unvisited`` points of flights that were not flown count as points and have no reading.
-    ``scoring`` is that of all points.
+    ``scoring`` and ``assessed`` are those of all points.
     """
-    scored = metrics_of(scoring) if scoring else {}
+    known = metrics_of(scoring) if scoring else {}
+    known |= assessment_metrics(assessed) if assessed else {}
     metrics = {
-        name: scored.get(name) or _joined(name, spec.joined, results)
+        name: known.get(name) or _joined(name, spec.joined, results)
         for name, spec in METRICS.items()
     }
     if not unvisited:
@@ -103,7 +117,9 @@ def _joined(name: str, joined: Joined, results: Sequence[Result]) -> Metric:
         return Metric(value=None, unit=unit, why=why)
     if joined.rule == "anew":
         first = results[0].metrics.get(name)
-        why = (first.why if first else "") or "the points of all sorties were not scored together"
+        why = (
+            first.why if first else ""
+        ) or "the points of all sorties were not looked at together"
         return Metric(value=None, unit=unit, why=why)
     needed = [name, joined.weight] if joined.weight else [name]
     for number, result in enumerate(results, 1):
@@ -150,6 +166,7 @@ def _never_read(target: Target) -> PointResult:
         valid=False,
         reason=UNVISITED,
         p_W=target.p_WC,
+        surface=target.surface or "",
         uv_m=target.uv_m,
         potential_mv=None,
         resistance_ohm=None,

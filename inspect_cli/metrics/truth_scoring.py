@@ -67,27 +67,25 @@ def scoring_of(flight: Flight) -> Scoring:
     Raises:
         NotMeasured: nothing was to be read, or the log does not know the truth there.
     """
-    wanted = {target.index: target.surface for target in flight.read_targets}
+    wanted = {target.index for target in flight.read_targets}
     rasters = flight.log.true_rasters()
     if not rasters:
         raise NotMeasured(NO_TRUTH)
-    placed = [(wanted[p.index], p) for p in point_results(flight) if p.index in wanted]
-    return score(placed, rasters, flight.log.mission())
+    points = [point for point in point_results(flight) if point.index in wanted]
+    return score(points, rasters, flight.mission)
 
 
 def score(
-    points: Sequence[tuple[str | None, PointResult]],
-    rasters: Sequence[TrueRaster],
-    mission: Mission,
+    points: Sequence[PointResult], rasters: Sequence[TrueRaster], mission: Mission
 ) -> Scoring:
-    """The scoring of points with the names of their surfaces.
+    """The scoring of points, each by the surface that it lies on.
 
     Raises:
         NotMeasured: no raster lies beneath any of them, or it knows nothing there.
     """
     scored = []
     for raster in rasters:
-        judged = Judged.of([point for surface, point in points if surface == raster.surface])
+        judged = Judged.of([point for point in points if point.surface == raster.surface])
         if len(judged.uv_m):
             pitch_m = _pitch_m(mission, raster.surface, judged.uv_m)
             scored.append(score_surface(judged, cells_around(judged.uv_m, pitch_m, raster), raster))

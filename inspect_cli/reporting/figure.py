@@ -54,8 +54,10 @@ def numbers(values: ArrayLike) -> Json:
 
 
 def words(text: Text) -> Text:
-    """A user's text for plotly, which reads tags and entities in any label; ours stays."""
-    return html.escape(text, quote=False) if isinstance(text, str) else text
+    """A user's text for plotly, which reads tags, entities and %{values} in it; ours stays."""
+    if not isinstance(text, str):
+        return text
+    return html.escape(text, quote=False).replace("%{", "%&#123;")
 
 
 def merged(base: Mapping[str, Any], extra: Mapping[str, Any]) -> Json:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from inspect_cli.reporting.figure import Figure, Json
 from inspect_cli.reporting.figures_study import Curve, Level, Row, error_bars, sweep_panels
 from inspect_cli.reporting.palette import BLUE, GREEN, INK, ORANGE, VERMILION
+from inspect_cli.reporting.text import number, say, significant, together
 from inspect_cli.schema.study import StudyResult
 
 POINTS, SORTIES = "study.points", "study.sorties"
@@ -14,33 +15,40 @@ ENERGY, DURATION = "study.energy_wh", "study.duration_s"
 FLOWN = "scoring.detected_share"
 LEVEL = 0.95
 """The share below which a grid is said to miss."""
+LEVEL_SHOWN = together(number(100.0 * LEVEL, 0), " %")
+AREA, WHOLE = say("truly active area"), say("sites")
+COSTS = say("%{{customdata[0]:g}} m: %{{y:.3g}} for %{{x:.3g}} Wh, %{{customdata[1]:.0f}} min")
 
 
 def pitch_figure(study: StudyResult) -> Figure:
     """Detected shares, and the areas missed and falsely judged, against the pitch."""
     shares = [
-        Curve(DETECTED, "truly active area", BLUE, "circle"),
-        Curve(SITES, "sites", GREEN, "square", "dot"),
+        Curve(DETECTED, AREA, BLUE, "circle"),
+        Curve(SITES, WHOLE, GREEN, "square", "dot"),
     ]
     if _was_flown(study):
-        shares.append(Curve(FLOWN, "truly active area, flown once", ORANGE, "diamond-open", "dash"))
-    found = Row("share found", tuple(shares), Level(LEVEL, "95 %", "dot"), 0.55)
+        flown = say("truly active area, flown once")
+        shares.append(Curve(FLOWN, flown, ORANGE, "diamond-open", "dash"))
+    found = Row(say("share found"), tuple(shares), Level(LEVEL, LEVEL_SHOWN, "dot"), 0.55)
     areas = Row(
-        "area (m²)",
+        say("area (m²)"),
         (
-            Curve(MISSED, "missed", VERMILION, "circle"),
-            Curve(FALSE, "falsely judged active", ORANGE, "square", "dot"),
+            Curve(MISSED, say("missed"), VERMILION, "circle"),
+            Curve(FALSE, say("falsely judged active"), ORANGE, "square", "dot"),
         ),
         None,
         0.45,
     )
     return Figure(
         "pitch-detection",
-        "What is found of what is truly active, against the pitch of the grid: above, the share "
-        "of the active area judged active and the share of the active sites with a reading within "
-        "that was judged so; below, the area missed and the area falsely judged active. Means "
-        f"over {study.trials} offsets of the grid; bars are standard errors.",
-        "Shares found and areas missed and falsely judged active against the pitch of the grid.",
+        say(
+            "What is found of what is truly active, against the pitch of the grid: above, the "
+            "share of the active area judged active and the share of the active sites with a "
+            "reading within that was judged so; below, the area missed and the area falsely "
+            "judged active. Means over {n} offsets of the grid; bars are standard errors.",
+            n=number(study.trials, 0),
+        ),
+        say("Shares found and areas missed and falsely judged active against the pitch."),
         *sweep_panels(study, (found, areas)),
         560,
     )
@@ -50,7 +58,7 @@ def cost_figure(study: StudyResult) -> Figure:
     """The detected share against the energy that is planned for it, one point a pitch."""
     quantity = study.quantities[0]
     variants = study.sweep(quantity)
-    names = [f"{variant.values[quantity.name]:g} m" for variant in variants]
+    names = [together(significant(v.values[quantity.name]), " m") for v in variants]
     traces: list[Json] = [
         {
             "type": "scatter",
@@ -66,15 +74,12 @@ def cost_figure(study: StudyResult) -> Figure:
             ],
             "line": {"color": colour, "dash": dash, "width": 1.6},
             "marker": {"symbol": symbol, "size": 9, "color": colour},
-            "hovertemplate": (
-                "%{customdata[0]:g} m: %{y:.3g} for %{x:.3g} Wh, %{customdata[1]:.0f} min"
-                f"<extra>{label}</extra>"
-            ),
+            "hovertemplate": together(COSTS, "<extra>", label, "</extra>"),
         }
         | error_bars(variants, metric, colour)
         for metric, label, colour, symbol, dash in (
-            (DETECTED, "truly active area", BLUE, "circle", "solid"),
-            (SITES, "sites", GREEN, "square", "dot"),
+            (DETECTED, AREA, BLUE, "circle", "solid"),
+            (SITES, WHOLE, GREEN, "square", "dot"),
         )
     ]
     ends = [variant.value(ENERGY) or 0.0 for variant in variants]
@@ -82,7 +87,7 @@ def cost_figure(study: StudyResult) -> Figure:
         {
             "type": "scatter",
             "mode": "lines",
-            "name": "95 %",
+            "name": LEVEL_SHOWN,
             "x": [min(ends), max(ends)],
             "y": [LEVEL, LEVEL],
             "line": {"color": INK, "dash": "dot", "width": 1.2},
@@ -94,16 +99,18 @@ def cost_figure(study: StudyResult) -> Figure:
         "xaxis": {
             "type": "log",
             "tickvals": ends,
-            "ticktext": [f"{end:.3g}" for end in ends],
-            "title": {"text": "energy planned (Wh)"},
+            "ticktext": [significant(end, 3) for end in ends],
+            "title": {"text": say("energy planned (Wh)")},
         },
-        "yaxis": {"rangemode": "tozero", "title": {"text": "share found"}},
+        "yaxis": {"rangemode": "tozero", "title": {"text": say("share found")}},
     }
     return Figure(
         "pitch-cost",
-        "Cost against detection: the shares that are found against the energy of all sorties as "
-        "planned, a point for each pitch.",
-        "Shares of active area and of sites found against planned energy, by pitch.",
+        say(
+            "Cost against detection: the shares that are found against the energy of all sorties "
+            "as planned, a point for each pitch."
+        ),
+        say("Shares of active area and of sites found against planned energy, by pitch."),
         traces,
         layout,
         380,

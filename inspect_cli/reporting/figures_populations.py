@@ -282,9 +282,7 @@ def _threshold_shapes(axis: str, mixture: MixtureFindings) -> list[Json]:
     return [band, line]
 
 
-def _threshold_words(
-    axis: str, mixture: MixtureFindings, ends: tuple[float, float]
-) -> list[Json]:
+def _threshold_words(axis: str, mixture: MixtureFindings, ends: tuple[float, float]) -> list[Json]:
     mv = mixture.threshold_mv
     if mv is None:
         return []

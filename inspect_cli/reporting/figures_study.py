@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
-from inspect_cli.reporting.figure import Figure, Json
+from inspect_cli.reporting.figure import Figure, Json, words
 from inspect_cli.reporting.palette import BLUE, GREEN, INK, ORANGE
 from inspect_cli.reporting.published import SOURCE, TABLE_IV
 from inspect_cli.reporting.text import Text, say, significant, together
@@ -148,7 +148,7 @@ def _panel(
                 "line": {"width": 2, "color": curve.colour},
             },
             "hovertemplate": together(
-                f"%{{x:g}} {quantity.unit}: %{{y:.3g}}<extra>", curve.label, "</extra>"
+                "%{x:g} ", words(quantity.unit), ": %{y:.3g}<extra>", curve.label, "</extra>"
             ),
             **error_bars(variants, curve.metric, curve.colour),
         }
@@ -170,11 +170,11 @@ def _x_axis(study: StudyResult, quantity: Quantity, column: int) -> Json:
     start = column * (width + GAP)
     x = [variant.values[quantity.name] for variant in study.sweep(quantity)]
     symbol, _, index = quantity.symbol.partition("_")
-    shown = f"{symbol}<sub>{index}</sub>" if index else symbol
+    shown = together(words(symbol), "<sub>", words(index), "</sub>") if index else words(symbol)
     return {
         "domain": [start, min(start + width, 1.0)],
         "type": "log",
         "tickvals": x,
         "ticktext": [significant(value) for value in x],
-        "title": {"text": f"{shown} ({quantity.unit})"},
+        "title": {"text": together(shown, " (", words(quantity.unit), ")")},
     }

@@ -42,6 +42,8 @@ from inspect_cli.reporting.text import (
 
 SEPARATORS = {",": ",\u202f", ".": ".\u202f"}
 """Plotly's signs for decimals and thousands, by the language's decimal sign."""
+TURNING = "\u202a\u202b\u202d\u202e\u2066\u2067\u2068"
+"""Signs that turn the direction of what follows: it must not be our words."""
 
 
 def html(document: Document, language: Language) -> str:
@@ -59,7 +61,8 @@ def inline(text: Text, language: Language) -> Markup:
     """A piece of text as HTML; what is not ours is escaped."""
     match text:
         case str():
-            return escaped(text)
+            isolated = any(sign in text for sign in TURNING)
+            return element("bdi", text) if isolated else escaped(text)
         case Said():
             return joined(
                 *(

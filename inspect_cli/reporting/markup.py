@@ -18,8 +18,8 @@ class Markup(str):
 
 
 def escaped(text: str) -> Markup:
-    """The text as HTML; markup stays what it is."""
-    return text if isinstance(text, Markup) else Markup(html.escape(text))
+    """The text as HTML; markup stays what it is, and NUL, which HTML forbids, gets a sign."""
+    return text if isinstance(text, Markup) else Markup(html.escape(text.replace("\0", "\ufffd")))
 
 
 def joined(*parts: str) -> Markup:
@@ -30,7 +30,7 @@ def joined(*parts: str) -> Markup:
 def element(name: str, *children: str, **attributes: str) -> Markup:
     """One element; ``class_`` and ``aria_label`` become ``class`` and ``aria-label``."""
     written = "".join(
-        f' {key.rstrip("_").replace("_", "-")}="{html.escape(value)}"'
+        f' {key.rstrip("_").replace("_", "-")}="{escaped(str(value))}"'
         for key, value in attributes.items()
     )
     return Markup(f"<{name}{written}>{joined(*children)}</{name}>")

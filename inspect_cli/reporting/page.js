@@ -11,6 +11,7 @@
   const buttons3d = [["toImage", "zoom3d", "pan3d", "orbitRotation", "resetCameraDefault3d"]];
   const timed = [];
   const plots = [];
+  const titleRoom = 24;
   let failures = 0;
   let zooming = false;
 
@@ -36,11 +37,11 @@
   async function draw(script) {
     const plot = document.getElementById(script.dataset.plot);
     const figure = JSON.parse(script.textContent);
+    plot.dataset.height = plot.style.height;
     figure.layout.template = template;
     // A finger that scrolls the page must not draw a zoom box.
     if (coarse) figure.layout.dragmode = false;
     await Plotly.newPlot(plot, figure.data, figure.layout, {
-      responsive: true,
       displaylogo: false,
       locale: root.lang,
       locales: { [root.lang]: { dictionary: dictionary } },
@@ -50,19 +51,89 @@
       modeBarButtons: figure.layout.scene ? buttons3d : buttons2d,
     });
     plots.push(plot);
+    await fit(plot);
     if (!figure.timed) return;
     timed.push(plot);
     plot.on("plotly_relayout", (change) => zoomTogether(plot, change));
+  }
+
+  // The axes whose titles are as the figure has them, and longer than there is room for.
+  function crowded(plot) {
+    const full = plot._fullLayout;
+    return Object.keys(full).filter(function (name) {
+      if (!/^[xy]axis[0-9]*$/.test(name)) return false;
+      const title = plot.querySelector(`.g-${name.replace("axis", "")}title text`);
+      if (!title) return false;
+      const box = title.getBoundingClientRect();
+      return Math.max(box.width, box.height) > full[name]._length + titleRoom;
+    });
+  }
+
+  // Two lines of about the same length.
+  function broken(text) {
+    const blanks = [...text.matchAll(/ (?![^<]*>)/g)].map((blank) => blank.index);
+    if (!blanks.length) return text;
+    const off = (at) => Math.abs(2 * at - text.length);
+    const at = blanks.reduce((best, blank) => (off(blank) < off(best) ? blank : best));
+    return `${text.slice(0, at)}<br>${text.slice(at + 1)}`;
+  }
+
+  // Fits a figure to the width that it has now: titles of axes are broken where they are longer
+  // than their axis, and with equal scales the height left over goes.
+  async function fit(plot) {
+    plot.style.height = plot.dataset.height;
+    const whole = { autosize: true };
+    for (const [name, text] of Object.entries(plot.titles || {})) {
+      whole[`${name}.title.text`] = text;
+    }
+    if (plot.titles) await Plotly.relayout(plot, whole);
+    plot.titles = plot.titles || {};
+    const shorter = {};
+    for (const name of crowded(plot)) {
+      const text = plot.titles[name] || plot.layout[name].title.text;
+      plot.titles[name] = text;
+      shorter[`${name}.title.text`] = broken(text);
+    }
+    if (Object.keys(shorter).length) await Plotly.relayout(plot, shorter);
+    // Margins follow the labels that a lower figure has: the second time it is about nothing.
+    for (let again = 0; again < 3; again++) {
+      const { yaxis, _size: room } = plot._fullLayout;
+      if (!yaxis || !yaxis.scaleanchor) return;
+      const spare = Math.floor(room.h - yaxis._length);
+      if (spare < 1) return;
+      plot.style.height = `${plot.clientHeight - spare}px`;
+      await Plotly.relayout(plot, { autosize: true });
+    }
+  }
+
+  // Paper cannot be scrolled: a table that is too wide for it is set smaller.
+  function fitTables(paper) {
+    for (const table of document.querySelectorAll(".scroll > table")) {
+      table.style.zoom = "";
+      const share = table.parentElement.clientWidth / table.offsetWidth;
+      if (paper && share < 1) table.style.zoom = String(share);
+    }
   }
 
   // Paper has another width than the window, and printing does not resize what stands in it.
   // While the class is set, the style sheet gives the page its printed width.
   function fitTo(paper) {
     root.classList.toggle("printing", paper);
-    for (const plot of plots) Plotly.relayout(plot, { autosize: true });
+    fitTables(paper);
+    plots.forEach(fit);
   }
   window.addEventListener("beforeprint", () => fitTo(true));
   window.addEventListener("afterprint", () => fitTo(false));
+
+  // A phone's address bar changes the height alone, which concerns no figure.
+  let width = window.innerWidth;
+  let waiting = 0;
+  window.addEventListener("resize", function () {
+    if (window.innerWidth === width) return;
+    width = window.innerWidth;
+    clearTimeout(waiting);
+    waiting = setTimeout(() => plots.forEach(fit), 100);
+  });
 
   async function drawAll() {
     for (const script of document.querySelectorAll("script[data-plot]")) {

@@ -21,8 +21,8 @@ class ReadPoint:
 
     @property
     def surface(self) -> str:
-        """Name of the surface that the point lies on; empty for a point in free air."""
-        return self.target.surface or "" if self.target else ""
+        """Name of the surface that the point lies on; empty where none was known."""
+        return self.point.surface
 
     @property
     def reason(self) -> Text:

@@ -11,6 +11,7 @@ import re
 from functools import cache
 
 from inspect_cli.reporting.language import pieces
+from inspect_cli.reporting.pitch_findings import PITCH_FINDINGS
 from inspect_cli.reporting.recorded_findings import FINDINGS
 from inspect_cli.reporting.recorded_pictures import PICTURES
 from inspect_cli.reporting.text import Said, Text, number, say
@@ -95,6 +96,11 @@ RECORDED: tuple[Said, ...] = (
     say("every valid potential is in the passive class: none stands out"),
     say("the log does not hold what is truly so beneath a surface"),
     say("the log does not hold what is truly so beneath a surface where points were planned"),
+    # Why a metric of the assessment has no value.
+    say("no point to read lies on a known surface"),
+    say("several surfaces have populations of their own"),
+    say("there is no threshold between two populations"),
+    say("the points of all sorties were not looked at together"),
     say("the log knows no specimen where readings were taken"),
     say("the log knows no specimen where the tool pressed"),
     say("nobody pulled at a rope during the flight"),
@@ -102,6 +108,11 @@ RECORDED: tuple[Said, ...] = (
     say("the cord pulled straight up or down"),
     say("a pull caused no {what} at all to compare with"),
     *(say("motion in z"), say("rotation"), say("torque about z_B")),
+    say("every valid potential is in the passive class: none stands out"),
+    say("the log does not hold what is truly so beneath a surface"),
+    say("the log does not hold what is truly so beneath a surface where points were planned"),
+    say("a single point on '{name}' does not say what area it stands for"),
+    *PITCH_FINDINGS,
     *FINDINGS,
     *PICTURES,
 )

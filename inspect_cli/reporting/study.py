@@ -107,7 +107,7 @@ def _numbers(study: StudyResult) -> Table:
     metrics = [Column(_lines(c.heading), unit_shown(c.unit), numeric=True) for c in study.columns]
     rows: list[list[Text]] = [
         [
-            say("mission") if _as_it_stands(study, variant) else "",
+            _named(study, variant),
             *(significant(variant.values[q.name]) for q in study.quantities),
             *(_value(variant, c.metric) for c in study.columns),
         ]
@@ -118,7 +118,14 @@ def _numbers(study: StudyResult) -> Table:
         published = [significant(c.published, 3) for c in study.columns]
         rows.append([say("published"), *[NOTHING] * len(quantities), *published])
         caption.append(say("Published: {source}.", source=SOURCE))
-    return Table(sentences(caption), [Column(""), *quantities, *metrics], rows, wide=True)
+    return Table(
+        sentences(caption), [Column(say("Variant")), *quantities, *metrics], rows, wide=True
+    )
+
+
+def _named(study: StudyResult, variant: StudyVariant) -> Text:
+    name = code(variant.name)
+    return Lines((name, say("mission"))) if _as_it_stands(study, variant) else name
 
 
 def _value(variant: StudyVariant, metric: str) -> Text:

@@ -284,7 +284,7 @@ def _label(text: Text, t_s: float) -> Json:
         "yref": "paper",
         "yanchor": "bottom",
         "showarrow": False,
-        "font": {"size": 10, "color": MUTED},
+        "font": {"size": 11, "color": MUTED},
     }
 
 

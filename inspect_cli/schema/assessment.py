@@ -5,8 +5,8 @@ from __future__ import annotations
 from typing import Literal
 
 from inspect_cli.schema.base import Strict
-from inspect_cli.schema.result import AstmClass
 
+AstmClass = Literal["passive", "uncertain", "active"]
 Populations = Literal["one population", "two populations"]
 
 

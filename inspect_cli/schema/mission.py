@@ -99,6 +99,9 @@ class StructureSurface(Strict):
 
     name: Name
     surface: SurfaceSource
+    temperature_c: Annotated[float, Field(ge=0, le=49)] | None = None
+    """Of its concrete and the electrode, within the range that ASTM C876 corrects; readings are
+    evaluated at 22.2 °C. Without it they are taken to be within 22.2 ± 5.5 °C."""
 
 
 class FlightOptions(Strict):

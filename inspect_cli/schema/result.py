@@ -6,12 +6,12 @@ from typing import Annotated, Literal
 
 from pydantic import Field
 
+from inspect_cli.schema.assessment import AstmClass, SurfaceAssessment
 from inspect_cli.schema.base import Strict, Triple
 from inspect_cli.schema.scoring import Scoring
 
 Status = Literal["completed", "aborted", "diverged", "interrupted"]
 Verdict = Literal["pass", "fail", "fail-known", "not_measured"]
-AstmClass = Literal["passive", "uncertain", "active"]
 Corrosion = Literal["none", "possible", "active"]
 
 
@@ -49,8 +49,15 @@ class PointResult(Strict):
     """Why it is invalid, in words; empty when valid."""
     p_W: Triple
     """Where the tool was believed to be; the planned point if it never got there."""
+    surface: str = ""
+    """That it lies on; empty where no surface was known beforehand."""
     uv_m: tuple[float, float] | None
+    read_mv: float | None = None
+    """As the voltmeter showed it: against the platform's electrode, not corrected."""
     potential_mv: float | None
+    """As evaluated: against CSE at 22.2 °C."""
+    potential_sd_mv: float | None = None
+    """Standard uncertainty of the evaluated potential, of this reading by itself."""
     resistance_ohm: float | None
     resistivity_ohm_m: float | None
     probe_force_n: float | None
@@ -64,7 +71,8 @@ class PointResult(Strict):
     position_error_m: float | None = None
     """Between the planned and the true contact point, along the surface."""
     true_potential_mv: float | None = None
-    """Of the specimen under the tip, mean over the last 2 s of the dwell."""
+    """What a perfect reading under the tip would be evaluated as, mean over the last 2 s of the
+    dwell."""
     true_resistivity_ohm_m: float | None = None
     true_corrosion: Corrosion | None = None
     """What the combined rule says of the specimen under the tip."""
@@ -84,6 +92,8 @@ class Result(Strict):
     points: tuple[PointResult, ...]
     scoring: Scoring | None = None
     """The verdicts against what is truly so; a real flight has none."""
+    assessment: tuple[SurfaceAssessment, ...] = ()
+    """The findings of each surface with points to read."""
 
     @property
     def passed(self) -> bool:

@@ -108,4 +108,7 @@ class StudyResult(Strict):
         if variant.status not in (self.expect_status, "sampled"):
             return ": ".join(filter(None, (variant.status, variant.status_reason)))
         missing = (c.metric for c in self.columns if variant.value(c.metric) is None)
-        return ", ".join(f"{m}: {variant.metrics[m].why}" for m in missing)
+        found = ((name, variant.metrics.get(name)) for name in missing)
+        return ", ".join(
+            f"{name}: {metric.why if metric else 'no number'}" for name, metric in found
+        )

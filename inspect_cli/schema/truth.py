@@ -34,6 +34,8 @@ class AnalyticSpecimen(Strict):
     model: Literal["analytic"]
     potential_v: float = -0.1
     resistivity_ohm_m: Positive = 200.0
+    temperature_c: Annotated[float, Field(ge=0, le=49)] = 22.2
+    """Of the concrete, in which a copper sulphate electrode reads these potentials."""
     spots: tuple[AnalyticSpot, ...] = ()
 
 
@@ -48,6 +50,8 @@ class GridSpecimen(Strict):
     pitch_m: Positive
     at_m: tuple[float, float] = (0.0, 0.0)
     """(u, v) of the grid's middle on the surface; columns run along u, rows along −v."""
+    temperature_c: Annotated[float, Field(ge=0, le=49)] = 22.2
+    """Of the concrete, in which a copper sulphate electrode reads these potentials."""
 
 
 Specimen = Annotated[

@@ -22,6 +22,7 @@ from inspect_cli.schema.base import (
     Triple,
 )
 from inspect_cli.schema.positioning import Estimation, OdometryModel, PoseModel, PoseNoise
+from inspect_cli.schema.survey import Electrode
 
 SAME_AZIMUTH_DEG = 1e-6
 UNEVEN = ("odometry_hz",)
@@ -97,6 +98,8 @@ class TofModel(Strict):
 class HalfCellModel(Strict):
     """The half-cell probe, its load cell and the rule for a valid reading."""
 
+    electrode: Electrode = "CSE"
+    """What the probe reads against; readings are evaluated against CSE all the same."""
     potential_noise_v: NonNegative
     resistance_noise: NonNegative
     """Relative standard deviation."""

@@ -3,8 +3,11 @@
 In contact (true normal force above 0.05 N), with the specimen's potential E and resistivity ρ
 under the tip, t the wetted time, τ the wetting time and k the cell constant:
 
-    potential  = E + dry_offset e^(−t/τ) + σ_E n₁
+    potential  = E + s + dry_offset e^(−t/τ) + σ_E n₁
     resistance = ρ/k (1 + e^(−t/τ) + max(0, 1 − F/F_min)) (1 + σ_R n₂)
+
+with s = 0 for a copper sulphate electrode, against which E is; else s is the other electrode's
+difference from it at the concrete's temperature (``assessment.electrodes``).
 
 Both excesses of the resistance are a stated choice: a contact that is not wetted yet, or that is
 pressed with less than F_min, has a smaller effective area. Wetted time counts the contact and is
@@ -18,10 +21,12 @@ Out of contact, or where there is no specimen, the circuit is open: the input of
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from typing import Final, TypeVar
 
 import numpy as np
 
+from inspect_cli.assessment.electrodes import electrode_shift_v
 from inspect_cli.records import Probe, State, TrueContact
 from inspect_cli.schema.vehicle import HalfCellModel
 from inspect_cli.sensing.instrument import Noise
@@ -68,7 +73,7 @@ def steady_readings(
     """What readings of a firm contact come to, without a flight: (n,) V and (n,) Ω.
 
     The medians over the last ``stable_s`` of the dwell, as the judge of readings takes them.
-    NaN where the specimen has no values.
+    NaN where the specimen has no values. Potentials stay against what they are given against.
     """
     count = max(1, round(model.stable_s * rate_hz))
     wetted_s = max(dwell_s, model.min_contact_s) - np.arange(count)[:, None] / rate_hz
@@ -82,9 +87,17 @@ def steady_readings(
 class HalfCellProbe:
     """Potential, resistance and force at the tool's tip."""
 
-    def __init__(self, model: HalfCellModel, rng: np.random.Generator) -> None:
+    def __init__(
+        self,
+        model: HalfCellModel,
+        rng: np.random.Generator,
+        temperatures_c: Sequence[float] = (),
+    ) -> None:
+        """``temperatures_c`` is that of the concrete of each surface by its index; else 22.2."""
         self.measurement = Probe.create()
         self._model = model
+        self._shift_v = electrode_shift_v(model.electrode)
+        self._shifts_v = [electrode_shift_v(model.electrode, t) for t in temperatures_c]
         self._noise = Noise(rng, 4)
         self._t = 0.0
         self._wetted_s = 0.0
@@ -110,9 +123,14 @@ class HalfCellProbe:
             return
         dryness = math.exp(-self._wetted_s / self._model.wetting_s)
         lightness = max(0.0, 1.0 - force / self._model.min_force_n)
+        potential += self._shift_on(int(contact.surface))
         measurement.potential = shown_potential(self._model, potential, dryness, noise[0])
         resistance = shown_resistance(self._model, resistivity, dryness, lightness, noise[1])
         measurement.resistance = min(max(0.0, resistance), OVER_RANGE_OHM)
+
+    def _shift_on(self, surface: int) -> float:
+        """From CSE to the probe's electrode on a surface, V."""
+        return self._shifts_v[surface] if 0 <= surface < len(self._shifts_v) else self._shift_v
 
     def _float(self, dt: float, noise: float) -> None:
         """Let the open input wander: an Ornstein–Uhlenbeck process."""

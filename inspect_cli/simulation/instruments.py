@@ -51,7 +51,9 @@ class Instruments:
             self.pose = PoseSensor(sensors.pose, component_rng(seed, "pose"))
         self._pose_name = "pose" if self.odometry is None else "odometry"
         self.tof = TofCamera(sensors.tof, seen, component_rng(seed, "tof"))
-        self.probe = HalfCellProbe(sensors.half_cell, component_rng(seed, "probe"))
+        self.probe = HalfCellProbe(
+            sensors.half_cell, component_rng(seed, "probe"), structure.temperatures_c
+        )
         self.wall = _wall_sensor(structure, seed)
         self._faults = faults
         self._holes = component_rng(seed, "tof holes")

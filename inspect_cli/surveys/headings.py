@@ -120,6 +120,8 @@ def _role(stem: str) -> Role | None:
     key = _SEPARATORS.sub("", stem.casefold())
     if key.startswith("true"):
         return None  # what a simulation adds to its readings
+    if key.endswith("sd"):
+        return None  # how uncertain a value is, not the value
     bare = _AXIS_WORDS.sub("", key)
     if bare in ("x", "y", "z", "u", "v"):
         key = bare

@@ -10,6 +10,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
+from inspect_cli.assessment.electrodes import STANDARD_C
 from inspect_cli.errors import InputError
 from inspect_cli.schema.geometry import MeshShape, TrueShape
 from inspect_cli.schema.macro_cell import MacroCellSpecimen, refuse_unfit
@@ -41,6 +42,12 @@ class StructureTruth:
 
     surfaces: tuple[SurfaceTruth, ...]
     solids: Solids
+
+    @property
+    def temperatures_c(self) -> list[float]:
+        """Of the concrete of each surface; 22.2 °C where nothing is known of it."""
+        specimens = (surface.specimen for surface in self.surfaces)
+        return [STANDARD_C if one is None else one.temperature_c for one in specimens]
 
 
 def true_structure(

@@ -33,6 +33,7 @@ import numpy as np
 from scipy.interpolate import RectBivariateSpline
 
 from inspect_cli.assessment.classes import combined_verdict
+from inspect_cli.assessment.electrodes import STANDARD_C
 from inspect_cli.compiled import kernel
 from inspect_cli.errors import InputError
 from inspect_cli.schema.macro_cell import MacroCellSpecimen
@@ -59,6 +60,11 @@ the solution's own nodes would cut the tip of a minimum by some millivolts."""
 
 class SpecimenField(Protocol):
     """Potential and resistivity along a surface."""
+
+    @property
+    def temperature_c(self) -> float:
+        """Of the concrete, in which a copper sulphate electrode reads what ``at`` answers."""
+        ...
 
     def at(self, u: float, v: float) -> tuple[float, float]:
         """(V, Ω·m) at (u, v) in m; NaN where the specimen has no values."""
@@ -113,6 +119,7 @@ class SpotField:
     def __init__(self, model: AnalyticSpecimen) -> None:
         self._sound = (model.potential_v, model.resistivity_ohm_m)
         rows = [(*s.at_m, s.depth_v, s.radius_m, s.resistivity_factor) for s in model.spots]
+        self.temperature_c = model.temperature_c
         self._spots: Points = np.array(rows, dtype=np.float64).reshape(-1, 5)
 
     def at(self, u: float, v: float) -> tuple[float, float]:
@@ -128,7 +135,14 @@ class SpotField:
 class GridField:
     """Values on a grid. ``values`` (rows, columns, 2) in V and Ω·m; at least 2 × 2 nodes."""
 
-    def __init__(self, values: Matrix, pitch_m: float, at_m: tuple[float, float]) -> None:
+    def __init__(
+        self,
+        values: Matrix,
+        pitch_m: float,
+        at_m: tuple[float, float],
+        temperature_c: float = STANDARD_C,
+    ) -> None:
+        self.temperature_c = temperature_c
         self._values = np.ascontiguousarray(values, dtype=np.float64)
         rows, columns = values.shape[:2]
         self._pitch = pitch_m
@@ -161,6 +175,7 @@ class MacroCellField:
         self._origin = (float(fine_u[0]), float(fine_v[0]))
         self._pitch = (float(fine_u[1] - fine_u[0]), float(fine_v[1] - fine_v[0]))
         self._sites = model.sites
+        self.temperature_c = model.temperature_c
 
     def at(self, u: float, v: float) -> tuple[float, float]:
         """(V, Ω·m) at (u, v) in m; NaN outside of the modelled concrete."""
@@ -223,7 +238,9 @@ def _load_grid(model: GridSpecimen, root: Path) -> GridField:
         raise InputError(
             f"{model.resistivity_kohm_cm}: row {row}, column {column} is not a positive resistivity"
         )
-    return GridField(np.dstack([potential, resistivity]), model.pitch_m, model.at_m)
+    return GridField(
+        np.dstack([potential, resistivity]), model.pitch_m, model.at_m, model.temperature_c
+    )
 
 
 def _size(table: Vector) -> str:

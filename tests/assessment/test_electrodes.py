@@ -7,9 +7,11 @@ import pytest
 
 from inspect_cli.assessment.electrodes import (
     ELECTRODES,
+    as_evaluated,
     basis_of,
     conversion_v,
     electrode_name,
+    electrode_shift_v,
     temperature_correction_v,
     to_cse,
     to_standard,
@@ -116,3 +118,28 @@ def test_the_standards_coefficient_is_not_applied_to_other_electrodes() -> None:
     assert "coefficient of a CSE" in cold.temperature_why
     with pytest.raises(InputError):
         basis_of("SCE", 60.0)
+
+
+@pytest.mark.parametrize("electrode", ELECTRODES)
+@pytest.mark.parametrize("temperature_c", [2.0, 35.0])
+def test_what_an_electrode_reads_comes_back(electrode: str, temperature_c: float) -> None:
+    """Beyond the negligible band, any electrode's reading is evaluated as the same potential."""
+    standard_v = -0.31
+    cse_v = standard_v - 0.9e-3 * (temperature_c - 22.2)  # what a CSE at T reads
+    read_v = cse_v + electrode_shift_v(electrode, temperature_c)
+    basis = basis_of(electrode, temperature_c)
+    assert to_standard(read_v, basis) == pytest.approx(standard_v, abs=1e-12)
+    assert as_evaluated(cse_v, basis) == pytest.approx(standard_v, abs=1e-12)
+
+
+@pytest.mark.parametrize("electrode", ELECTRODES)
+def test_at_an_unknown_temperature_the_conversion_alone_is_undone(electrode: str) -> None:
+    read_v = -0.31 + electrode_shift_v(electrode)
+    assert to_cse(read_v, electrode) == pytest.approx(-0.31, abs=1e-12)
+    assert as_evaluated(-0.31, basis_of(electrode)) == pytest.approx(-0.31, abs=1e-12)
+
+
+def test_with_a_cse_nothing_moves_by_a_single_digit() -> None:
+    given = np.random.default_rng(1).uniform(-0.6, 0.1, 1000)
+    np.testing.assert_array_equal(as_evaluated(given, basis_of("CSE")), given)
+    np.testing.assert_array_equal(to_standard(given, basis_of("CSE", 25.0)), given)

@@ -27,7 +27,7 @@ def number(text: str) -> float | None:
 
 def test_it_parses_back_to_the_points() -> None:
     readings = handed()
-    rows = rows_of(readings_csv(readings.points, readings.surfaces))
+    rows = rows_of(readings_csv(readings.points))
     assert list(rows[0])[:8] == ["index", "label", "surface", "u_m", "v_m", "x_m", "y_m", "z_m"]
     for row, each in zip(rows, readings.points, strict=True):
         for name, value in each.model_dump(exclude={"p_W", "uv_m", "valid"}).items():
@@ -42,8 +42,8 @@ def test_it_parses_back_to_the_points() -> None:
 
 @pytest.mark.parametrize("start", ["=1+1", "+1", "-1", "@SUM(A1)", "\t=1", "\r=1", "'=1"])
 def test_no_text_runs_as_a_formula(start: str) -> None:
-    points = [point(0, label=start, valid=False, reason=start, potential_mv=-5.5)]
-    row = rows_of(readings_csv(points, {0: start}))[0]
+    points = [point(0, label=start, surface=start, valid=False, reason=start, potential_mv=-5.5)]
+    row = rows_of(readings_csv(points))[0]
     for name in ("label", "reason", "surface"):
         assert row[name] == f"'{start}".replace("\r", "\n"), name
     assert row["potential_mv"] == "-5.5"  # numbers stay numbers
@@ -59,7 +59,9 @@ def test_our_own_readings_can_be_read_as_a_survey(tmp_path: Path) -> None:
     readings = handed()
     points = list(readings.points)
     (tmp_path / "readings.csv").write_text(
-        readings_csv(points[:3], {p.index: "deck" for p in points}), encoding="utf-8", newline=""
+        readings_csv([p.model_copy(update={"surface": "deck"}) for p in points[:3]]),
+        encoding="utf-8",
+        newline="",
     )
     survey = read_survey(tmp_path / "readings.csv")
     assert survey.labels == tuple(p.label for p in points[:3])
@@ -74,7 +76,7 @@ def test_our_own_readings_can_be_read_as_a_survey(tmp_path: Path) -> None:
 def test_an_invalid_reading_comes_back_as_one(tmp_path: Path) -> None:
     points = [point(0), point(1, label="-7", valid=False, reason="unstable", potential_mv=None)]
     file = tmp_path / "readings.csv"
-    file.write_text(readings_csv(points, {}), encoding="utf-8", newline="")
+    file.write_text(readings_csv(points), encoding="utf-8", newline="")
     survey = read_survey(file)
     assert survey.labels == ("P0", "-7")
     assert survey.valid.tolist() == [True, False]

@@ -62,7 +62,9 @@ def grid(columns: int, rows: int, pitch_m: float, at_m: tuple[float, float] = (0
     return np.column_stack([np.tile(u, rows), np.repeat(v, columns)])
 
 
-def point(index: int, uv_m: tuple[float, float], said: str | None) -> PointResult:
+def point(
+    index: int, uv_m: tuple[float, float], said: str | None, surface: str = "wall"
+) -> PointResult:
     """A point as a flight leaves it; None for one without a valid reading."""
     astm = {"none": "passive", "possible": "uncertain", "active": "active", None: None}
     return PointResult(
@@ -71,6 +73,7 @@ def point(index: int, uv_m: tuple[float, float], said: str | None) -> PointResul
         valid=said is not None,
         reason="" if said else "not visited",
         p_W=(0.0, 0.0, 0.0),
+        surface=surface,
         uv_m=uv_m,
         potential_mv=None,
         resistance_ohm=None,

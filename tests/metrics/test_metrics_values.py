@@ -109,10 +109,10 @@ EXPECTED = {
     "actuators.thrust_max_n": 4.0,
 }
 
-ELSEWHERE = ("pull.", "scoring.")
+ELSEWHERE = ("pull.", "scoring.", "assessment.")
 CALM = {name: spec for name, spec in METRICS.items() if not name.startswith(ELSEWHERE)}
 """Nobody pulls at a rope in this flight, and no raster of the truth lies in its log; for both
-``test_pull.py`` and ``test_truth_scoring.py`` have one."""
+``test_pull.py`` and ``test_truth_scoring.py`` have one. ``test_assessed.py`` tells what it says."""
 
 
 def test_every_metric_has_the_value_that_the_flight_was_made_with(flight: SyntheticFlight) -> None:

@@ -121,12 +121,12 @@ def test_where_the_specimen_knows_nothing_nothing_is_scored() -> None:
     assert sum(row.active_points + row.sound_points for row in surface.combined.rows) == 16
     raster.potential_v[:] = np.nan
     with pytest.raises(NotMeasured, match="where points were planned"):
-        score([("wall", point(0, (0.0, 0.0), "none"))], [raster], mission(gridded(1, 1, 0.25)))
+        score([point(0, (0.0, 0.0), "none")], [raster], mission(gridded(1, 1, 0.25)))
 
 
 def test_a_single_reading() -> None:
     raster = raster_of(disc(0.3, 0.1, 0.1))
-    points = [("wall", point(0, (0.3, 0.1), "active"))]
+    points = [point(0, (0.3, 0.1), "active")]
     scored = score(points, [raster], mission(gridded(1, 1, 0.25)))
     combined = scored.confusion()
     assert combined.region_m2 == pytest.approx(0.0625)
@@ -138,7 +138,7 @@ def test_a_single_reading() -> None:
     with pytest.raises(NotMeasured, match="what area it stands for"):
         score(points, [raster], mission(lone))
     # Two points say how far apart points are.
-    points.append(("wall", point(1, (0.5, 0.1), "none")))
+    points.append(point(1, (0.5, 0.1), "none"))
     assert score(points, [raster], mission(lone)).confusion().region_m2 == pytest.approx(0.08)
 
 
@@ -146,8 +146,8 @@ def test_two_surfaces_are_scored_apart_and_summed() -> None:
     left, right = disc(0.0, 0.0, 0.2), disc(0.25, 0.0, 0.1)
     rasters = [raster_of(left, name="left"), raster_of(right, name="right")]
     places = [(float(u), float(v)) for u, v in grid(4, 2, 0.25)]
-    points = [(on, point(k, uv, "none")) for on in ("left", "right") for k, uv in enumerate(places)]
-    points.append(("floor", point(99, (0.0, 0.0), "active")))
+    points = [point(k, uv, "none", on) for on in ("left", "right") for k, uv in enumerate(places)]
+    points.append(point(99, (0.0, 0.0), "active", "floor"))
     tasks = [gridded(4, 2, 0.25, on) for on in ("left", "right", "floor")]
     scored = score(points, rasters, mission(*tasks))
     assert [one.surface for one in scored.surfaces] == ["left", "right"]
@@ -297,7 +297,7 @@ def test_a_survey_is_scored_over_all_points_and_not_flight_by_flight() -> None:
     halves = [
         flown.model_copy(update={"points": tuple(half)}) for half in (points[::2], points[1::2])
     ]
-    score_all = scorer("wall", [raster], mission(gridded(8, 4, 0.25)))
+    score_all = scorer([raster], mission(gridded(8, 4, 0.25)))
     joined = joined_result(halves, [], [], 1, score_all)
     assert joined.scoring is not None
     assert joined.metrics["scoring.sites_total"].value == 1.0

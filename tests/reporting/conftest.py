@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+import shutil
+from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import Any
 
 import pytest
 from evaluated_points import evaluated_of
 from example_flights import Flight, survey
+from playwright.sync_api import Browser, sync_playwright
 from report_pages import Page, Reported
 
 from inspect_cli.metrics.evaluate import evaluate
@@ -43,3 +45,16 @@ def fly(platform_file: Path) -> Callable[..., Flight]:
         return survey(platform_file, *args, **options)
 
     return build
+
+
+@pytest.fixture(scope="session")
+def chromium() -> Iterator[Browser]:
+    """One headless Chromium for all tests that need one."""
+    found = (shutil.which(name) for name in ("chromium", "chromium-browser", "google-chrome"))
+    path = next((p for p in found if p), None)
+    if path is None:
+        pytest.skip("needs headless Chromium (chromium, chromium-browser or google-chrome)")
+    with sync_playwright() as playwright:
+        browser = playwright.chromium.launch(executable_path=path, args=["--no-sandbox"])
+        yield browser
+        browser.close()

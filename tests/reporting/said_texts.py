@@ -22,7 +22,7 @@ def said(package: Path) -> set[Key]:
     found |= {(spec.meaning, "") for spec in METRICS.values()}
     found |= {(row.words, "") for row in PUBLISHED.values()}
     found |= {(study.title, "") for study in STUDIES.values()}
-    headings = (c.heading for study in STUDIES.values() for c in study.columns)
+    headings = (c.heading for s in STUDIES.values() for c in s.columns + s.flown_columns)
     found |= {(part, "") for heading in headings for part in heading.split(", ")}
     return found | {(COMBINED_RULE, "")}
 

@@ -200,3 +200,19 @@ def test_a_patch_may_go_around_once() -> None:
     around = 2.0 * math.pi * 0.5
     assert CylinderShape(**CYLINDER | {"size_m": (around, 9.0)}).size_m == (around, 9.0)
     assert SphereShape(**SPHERE | {"size_m": (around, around / 2)}).size_m[0] == around
+
+
+def test_an_electrode_that_does_not_exist(platform_refusal: Refusal) -> None:
+    (found,) = platform_refusal("  half_cell:\n", "  half_cell:\n    electrode: Ag/AgCl\n")
+    assert "sensors.half_cell.electrode" in found
+    assert "p.yaml:" in found
+    for choice in ("CSE", "SCE", "Ag/AgCl sat. KCl", "Ag/AgCl 0.1 M KCl"):
+        assert choice in found
+
+
+@pytest.mark.parametrize("temperature_c", ["-0.5", "49.5", ".nan"])
+def test_a_temperature_that_the_standard_does_not_correct(
+    refusal: Refusal, temperature_c: str
+) -> None:
+    (found,) = refusal("  - name: wall\n", f"  - name: wall\n    temperature_c: {temperature_c}\n")
+    assert "m.yaml:7:20: structure[0].temperature_c: must be" in found

@@ -143,3 +143,20 @@ def test_a_place_without_a_specimen_has_no_reading() -> None:
     assert np.isnan(ohms[0])
     assert volts[1] == pytest.approx(-0.35, abs=1e-8)
     assert ohms[1] == pytest.approx(1600.0)
+
+
+@pytest.mark.parametrize(
+    ("electrode", "shift_v"),
+    [("CSE", 0.0), ("SCE", 0.075), ("Ag/AgCl sat. KCl", 0.119), ("Ag/AgCl 0.1 M KCl", 0.0265)],
+)
+def test_it_reads_against_its_electrode(electrode: str, shift_v: float) -> None:
+    """The specimen's −350 mV are against CSE; at 35 °C a CSE reads 11.52 mV less than others."""
+    model = QUIET.model_copy(update={"electrode": electrode})
+    bench = Bench(model)
+    assert bench.press(2.0, 10.0)[-1, 0] == pytest.approx(-0.35 + shift_v, abs=1e-8)
+    bench.probe = HalfCellProbe(model, np.random.default_rng(0), [22.2, 35.0])
+    warm_v = 0.0 if electrode == "CSE" else 0.01152
+    for surface, more_v in ((0, 0.0), (1, warm_v), (-1, 0.0)):
+        bench.contact.surface = surface
+        read_v = bench.press(2.0, 10.0)[-1, 0]
+        assert read_v == pytest.approx(-0.35 + shift_v + more_v, abs=1e-8)

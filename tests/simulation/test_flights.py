@@ -9,7 +9,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from scenarios import Array, Flown, Scenario
+from scenarios import TWO_POINTS, Array, Flown, Scenario
 
 from inspect_cli.records import Mode, Record, State
 from inspect_cli.simulation.instruments import Instruments
@@ -253,3 +253,37 @@ def test_poisoned_truth_changes_nothing_downstream_of_the_sensors(
     poisoned = SHORT.fly(campaign, "poisoned")
     assert poison.controls > 10_000
     assert bytes_of(poisoned) == clean
+
+
+def test_a_calomel_electrode_in_warm_concrete_comes_back_to_the_standards_scale(
+    campaign: Path,
+) -> None:
+    """It shows 75 mV more, the evaluation takes that off, and the truth is held on one scale.
+
+    A reading of 1 mV noise is within 5 mV of the specimen (its rule: 5 mV over a second).
+    """
+    (campaign / "platforms" / "calomel.yaml").write_text(
+        "schema: 1\nextends: tilt_rotor_hexarotor.yaml\nname: calomel\nkind: tilt_rotor\n"
+        "sensors: {half_cell: {electrode: SCE}}\n"
+    )
+    warm = """
+        structure:
+          wall: {specimen: {temperature_c: 35, spots: []}}
+    """
+    known = (
+        "structure:\n"
+        "  - {name: wall, temperature_c: 35, surface: {fit: plane, cloud: scans/wall.ply}}\n"
+    )
+    tasks = f"platform: calomel\n{known}{TWO_POINTS}"
+    flight = Scenario("calomel", warm, tasks).fly(campaign)
+    rows = flight.log.channels["/reading"]
+    result = flight.outcome.result
+    sound_mv = -120.0 + 0.9 * (35.0 - 22.2)  # the analytic specimen's −120 mV of a CSE at 35 °C
+    for point, row in zip(result.points, rows, strict=True):
+        assert point.read_mv == pytest.approx(1e3 * row["potential"])
+        assert point.potential_mv == pytest.approx(point.read_mv - 75.0)
+        assert point.true_potential_mv == pytest.approx(sound_mv, abs=1e-6)
+        assert point.potential_mv == pytest.approx(sound_mv, abs=5.0)
+    assert result.value("half_cell.potential_error_max_v") < 0.005
+    (wall,) = result.assessment
+    assert (wall.basis.electrode, wall.basis.temperature_c) == ("SCE", 35.0)

@@ -163,3 +163,7 @@ def test_a_belief_that_it_does_not_fit_is_refused() -> None:
     with pytest.raises(InputError, match="has to state its size_m"):
         load_specimen(specimen(), Path())
     assert load_specimen(specimen(size_m=(0.8, 0.8)), Path()).active(0.0, 0.0)
+
+
+def test_it_knows_its_temperature() -> None:
+    assert field(temperature_c=35.0).temperature_c == 35.0

@@ -177,3 +177,9 @@ def test_a_mesh_comes_last_and_carries_its_specimen_and_its_displacement(tmp_pat
     assert (contact.potential, contact.resistivity) == SPOT
     assert at(found, [0.0, 6.0, 3.004]).contact.distance == pytest.approx(-0.004, abs=1e-6)
     assert at(found, [0.0, 4.5, 1.5]).contact.surface == 0
+
+
+def test_the_temperature_of_each_surface() -> None:
+    warm = SPECIMEN.model_copy(update={"temperature_c": 35.0})
+    truth = {"s0": TrueSurface(specimen=warm), "s2": TrueSurface(specimen=SPECIMEN)}
+    assert structure(truth, WALL, BALL, VAULT).temperatures_c == [35.0, 22.2, 22.2]

@@ -1,0 +1,108 @@
+"""The points of a flight or of a survey, assessed surface by surface.
+
+The potentials of points are evaluated already. How sure a reading is follows from how it was
+taken: the platform's probe with its rule for a valid reading, and the resistance, which tells how
+firm and how wet the contact was.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Sequence
+from functools import partial
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from inspect_cli.assessment.electrodes import basis_of
+from inspect_cli.schema.assessment import Basis
+from inspect_cli.schema.mission import Mission
+from inspect_cli.schema.result import PointResult
+from inspect_cli.schema.vehicle import HalfCellModel, PlatformBase
+from inspect_cli.spatial.arrays import Vector
+
+if TYPE_CHECKING:
+    from inspect_cli.assessment.assess import Assessed
+
+AssessAll = Callable[[Sequence[PointResult]], "tuple[Assessed, ...]"]
+
+
+def assess_points(
+    points: Sequence[PointResult], mission: Mission, probe: HalfCellModel
+) -> tuple[Assessed, ...]:
+    """The findings of each surface that has points, in the order in which it first appears.
+
+    Points that lie on no known surface belong to none. The pitch of a grid or a coverage is the
+    mission's; where a surface has single points or several pitches, the points tell the spacing.
+    """
+    surfaces = dict.fromkeys(p.surface for p in points if p.surface and p.uv_m is not None)
+    if not surfaces:
+        return ()
+    from inspect_cli.assessment.assess import assess
+    from inspect_cli.assessment.readings import readings_of
+
+    assessed = []
+    for surface in surfaces:
+        own = _on(surface, points)
+        readings = readings_of(own, measurement_sd_v(own, probe))
+        basis = basis_on(mission, surface, probe.electrode)
+        assessed.append(assess(surface, readings, basis=basis, pitch_m=pitch_on(mission, surface)))
+    return tuple(assessed)
+
+
+def assessor(mission: Mission, platform: PlatformBase) -> AssessAll:
+    """What assesses all points of a survey."""
+    return partial(assess_points, mission=mission, probe=platform.sensors.half_cell)
+
+
+def with_uncertainty(
+    points: Sequence[PointResult], assessed: Iterable[Assessed]
+) -> tuple[PointResult, ...]:
+    """The points that ``assess_points`` was given, with how sure each valid reading is.
+
+    u² = u²(reading) + s² + u²(temperature) with s of a single reading: a place that was read m
+    times is surer than each of its readings.
+    """
+    found: dict[int, float] = {}
+    for one in assessed:
+        budget = one.budget
+        single_v = np.sqrt(budget.reading_v**2 + budget.single_v**2 + budget.temperature_v**2)
+        each_mv = 1e3 * single_v[one.merged.member]
+        own = _on(one.summary.surface, points)
+        found |= {p.index: float(mv) for p, mv in zip(own, each_mv, strict=True) if p.valid}
+    return tuple(p.model_copy(update={"potential_sd_mv": found.get(p.index)}) for p in points)
+
+
+def basis_on(mission: Mission, surface: str | None, electrode: str) -> Basis:
+    """What the potentials on a surface rest on: the probe's electrode, the stated temperature."""
+    stated = {known.name: known.temperature_c for known in mission.structure}
+    return basis_of(electrode, stated.get(surface or ""))
+
+
+def pitch_on(mission: Mission, surface: str) -> float | None:
+    """The pitch of the grids on a surface; None where something else is read there, too."""
+    tasks = [task for task in mission.tasks if task.on == surface and task.instrument]
+    works = [task.contact_grid or task.coverage for task in tasks]
+    pitches = {None if work is None else work.pitch_m for work in works}
+    return pitches.pop() if len(pitches) == 1 else None
+
+
+def measurement_sd_v(points: Sequence[PointResult], probe: HalfCellModel) -> Vector:
+    """Standard uncertainty (n,), V, of the readings themselves; NaN without a valid one."""
+    from inspect_cli.assessment.uncertainty import reading_sd_v
+
+    return reading_sd_v(
+        _numbers(1e-3 * p.read_mv if p.read_mv is not None else None for p in points),
+        _numbers(p.resistance_ohm for p in points),
+        noise_v=probe.potential_noise_v,
+        stable_v=probe.stable_v,
+        stable_s=probe.stable_s,
+        wetting_s=probe.wetting_s,
+    )
+
+
+def _on(surface: str, points: Iterable[PointResult]) -> list[PointResult]:
+    return [p for p in points if p.surface == surface and p.uv_m is not None]
+
+
+def _numbers(values: Iterable[float | None]) -> Vector:
+    return np.array([np.nan if value is None else value for value in values], np.float64)
