@@ -211,11 +211,16 @@ def _on_grid(
     held: Supports, variogram: Variogram, u: Floats, v: Floats, inside: NDArray[np.bool_]
 ) -> tuple[Floats, Floats]:
     """Kriged potential and variance at the nodes ``inside``, NaN elsewhere."""
+    from threadpoolctl import threadpool_limits
+
     estimate = np.full(inside.shape, np.nan)
     variance = np.full(inside.shape, np.nan)
-    for rows, columns, near in _tiles(held, u, v, inside):
-        at = np.column_stack([u[columns], v[rows]])
-        estimate[rows, columns], variance[rows, columns] = kriged_at(near, variogram, at)
+    # The systems are small: threads gain nothing, and where the processors are busy with other
+    # work they wait for each other a hundred times longer than one thread computes.
+    with threadpool_limits(limits=1, user_api="blas"):
+        for rows, columns, near in _tiles(held, u, v, inside):
+            at = np.column_stack([u[columns], v[rows]])
+            estimate[rows, columns], variance[rows, columns] = kriged_at(near, variogram, at)
     return estimate, variance
 
 

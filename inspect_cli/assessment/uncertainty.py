@@ -66,6 +66,14 @@ class Budget:
     single_from: str
     """Where s comes from."""
 
+    @property
+    def alone_v(self) -> Vector:
+        """(m,) of each reading by itself: √(u²(reading) + s² + u²(temperature)), NaN unknown.
+
+        A place that was read several times is surer than each of its readings.
+        """
+        return np.asarray(np.sqrt(self.reading_v**2 + self.single_v**2 + self.temperature_v**2))
+
 
 def reading_sd_v(
     potential_v: ArrayLike,

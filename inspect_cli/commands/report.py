@@ -6,15 +6,16 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
+from inspect_cli.commands.delivery import Wanted, deliver, export, handed_readings
+from inspect_cli.commands.evaluating import evaluated_points
 from inspect_cli.commands.pictures import pictured
 from inspect_cli.commands.runs import log_of, write_model, write_readings
 from inspect_cli.commands.survey_report import report_survey, survey_of
 from inspect_cli.log.reader import read_log
 from inspect_cli.metrics.evaluate import evaluate
 from inspect_cli.pictures.take import Pictures
-from inspect_cli.reporting.report import write_report
+from inspect_cli.reporting.report import report_document
 from inspect_cli.schema.result import Result
-from inspect_cli.schema.survey import LanguageCode
 
 
 @dataclass(frozen=True)
@@ -28,32 +29,32 @@ class ReportOutcome:
 
 
 def report(
-    runs: Sequence[Path],
-    out: Path | None = None,
-    language: LanguageCode = "en",
-    *,
-    pictures: bool = False,
+    runs: Sequence[Path], out: Path | None = None, wanted: Wanted | None = None
 ) -> tuple[ReportOutcome, ...]:
     """Report each run folder or log; with several, ``out`` takes a folder per mission and run.
 
-    With ``pictures`` a scene and a film are rendered, of a survey those of its first sortie.
+    Of a survey of several sorties, pictures are those of its first.
 
     Raises LogError when a file is no log of ours; then nothing is written for it.
     """
-    return tuple(_report_one(run, _folder(run, out, len(runs)), language, pictures) for run in runs)
+    wanted = wanted or Wanted()
+    return tuple(_report_one(run, _folder(run, out, len(runs)), wanted) for run in runs)
 
 
-def _report_one(run: Path, folder: Path, language: LanguageCode, pictures: bool) -> ReportOutcome:
+def _report_one(run: Path, folder: Path, wanted: Wanted) -> ReportOutcome:
     survey = survey_of(run)
     if survey is not None:
-        return ReportOutcome(*report_survey(run, survey, folder, language, pictures=pictures))
+        return ReportOutcome(*report_survey(run, survey, folder, wanted))
     log = read_log(log_of(run))
-    result = evaluate(log)
+    result, plan = evaluate(log), log.plan()
     folder.mkdir(parents=True, exist_ok=True)
     write_model(folder / "metrics.json", result)
     write_readings(folder, result)
-    taken = pictured(log, result, folder, language, wanted=pictures)
-    return ReportOutcome(result, write_report(log, result, folder, language), taken)
+    export(folder, handed_readings(log, result), wanted)
+    taken = pictured(log, result, folder, wanted.language, wanted=wanted.pictures)
+    evaluated = evaluated_points(result.points, log)
+    page = deliver(folder, report_document(log, result, plan, evaluated, taken), wanted)
+    return ReportOutcome(result, page, taken)
 
 
 def _folder(run: Path, out: Path | None, count: int) -> Path:

@@ -3,10 +3,13 @@
 from __future__ import annotations
 
 import json
+from dataclasses import replace
 from pathlib import Path
 
 from pydantic import ValidationError
 
+from inspect_cli.commands.delivery import Wanted, deliver, export, handed_readings
+from inspect_cli.commands.evaluating import evaluated_points
 from inspect_cli.commands.pictures import pictured
 from inspect_cli.commands.runs import LOG_NAME, SORTIES, log_of, write_model, write_readings
 from inspect_cli.errors import InputError, LogError
@@ -15,11 +18,10 @@ from inspect_cli.metrics.assessed import assessor
 from inspect_cli.metrics.evaluate import evaluate
 from inspect_cli.metrics.survey import joined_result, scorer
 from inspect_cli.pictures.take import Pictures
-from inspect_cli.reporting.report import write_report
-from inspect_cli.reporting.survey import write_survey_report
+from inspect_cli.reporting.report import report_document
+from inspect_cli.reporting.survey import survey_document
 from inspect_cli.schema.coverage import CoveragePlan, Sortie
 from inspect_cli.schema.result import Result
-from inspect_cli.schema.survey import LanguageCode
 
 FLY_AGAIN = "fly the survey again, or report its sorties one by one"
 
@@ -52,12 +54,7 @@ def survey_of(run: Path) -> CoveragePlan | None:
 
 
 def report_survey(
-    run: Path,
-    survey: CoveragePlan,
-    folder: Path,
-    language: LanguageCode = "en",
-    *,
-    pictures: bool = False,
+    run: Path, survey: CoveragePlan, folder: Path, wanted: Wanted
 ) -> tuple[Result, Path, Pictures | None]:
     """Score and report every sortie that was flown, and the survey they make together.
 
@@ -78,7 +75,8 @@ def report_survey(
         own.mkdir(parents=True, exist_ok=True)
         write_model(own / "metrics.json", result)
         write_readings(own, result)
-        write_report(log, result, own, language)
+        document = report_document(log, result, log.plan(), evaluated_points(result.points, log))
+        deliver(own, document, replace(wanted, pdf=False))
         results.append(result)
         first = first or log
     if first is None:
@@ -95,9 +93,13 @@ def report_survey(
     write_model(folder / "metrics.json", joined)
     write_readings(folder, joined)
     which = f"sortie 1 of {len(results)}"
-    taken = pictured(first, results[0], folder, language, wanted=pictures, flight=which)
-    page = write_survey_report(first, joined, results, survey, folder, language)
-    return joined, page, taken
+    export(folder, handed_readings(first, joined), wanted)
+    taken = pictured(
+        first, results[0], folder, wanted.language, wanted=wanted.pictures, flight=which
+    )
+    evaluated = evaluated_points(joined.points, first)
+    document = survey_document(first, joined, results, survey, plan, evaluated, taken)
+    return joined, deliver(folder, document, wanted), taken
 
 
 def _flown(run: Path, survey: CoveragePlan) -> list[tuple[Sortie, Path]]:

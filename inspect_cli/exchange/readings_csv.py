@@ -4,8 +4,7 @@ from __future__ import annotations
 
 import csv
 import io
-from collections.abc import Sequence
-from operator import attrgetter
+from collections.abc import Iterable, Iterator, Sequence
 
 from inspect_cli.schema.result import PointResult
 from inspect_cli.surveys.defusing import defused
@@ -16,6 +15,8 @@ FIELDS = tuple(
     for name in PointResult.model_fields
     if name not in ("index", "label", "surface", "p_W", "uv_m")
 )
+NUMBERS = ("_mv", "_n", "_s", "_m", "_ohm")
+"""How the names of fields end that hold nothing but numbers."""
 COLUMNS = (*PLACE, *FIELDS)
 """Place first, then the fields of a PointResult under their own names, which hold the unit."""
 
@@ -30,12 +31,22 @@ def readings_csv(points: Sequence[PointResult]) -> str:
     text = io.StringIO()
     writer = csv.writer(text, lineterminator="\n")
     writer.writerow(COLUMNS)
-    fields = attrgetter(*FIELDS)
-    for point in points:
-        place = (point.index, point.label, point.surface)
-        row = (*place, *(point.uv_m or (None, None)), *point.p_W, *fields(point))
-        writer.writerow([_cell(value) for value in row])
+    writer.writerows(zip(*_columns(points), strict=True))
     return text.getvalue()
+
+
+def _columns(points: Sequence[PointResult]) -> Iterator[Iterable[object]]:
+    """Column by column, because numbers need no look at each and there may be a lot of them."""
+    yield [point.index for point in points]
+    yield map(_cell, [point.label for point in points])
+    yield map(_cell, [point.surface for point in points])
+    for axis in (0, 1):
+        yield [None if point.uv_m is None else point.uv_m[axis] for point in points]
+    for axis in (0, 1, 2):
+        yield [point.p_W[axis] for point in points]
+    for name in FIELDS:
+        column = [getattr(point, name) for point in points]
+        yield column if name.endswith(NUMBERS) else map(_cell, column)
 
 
 def _cell(value: object) -> object:

@@ -57,16 +57,10 @@ def assessor(mission: Mission, platform: PlatformBase) -> AssessAll:
 def with_uncertainty(
     points: Sequence[PointResult], assessed: Iterable[Assessed]
 ) -> tuple[PointResult, ...]:
-    """The points that ``assess_points`` was given, with how sure each valid reading is.
-
-    u² = u²(reading) + s² + u²(temperature) with s of a single reading: a place that was read m
-    times is surer than each of its readings.
-    """
+    """The points that ``assess_points`` was given, with how sure each valid reading is."""
     found: dict[int, float] = {}
     for one in assessed:
-        budget = one.budget
-        single_v = np.sqrt(budget.reading_v**2 + budget.single_v**2 + budget.temperature_v**2)
-        each_mv = 1e3 * single_v[one.merged.member]
+        each_mv = 1e3 * one.budget.alone_v[one.merged.member]
         own = _on(one.summary.surface, points)
         found |= {p.index: float(mv) for p, mv in zip(own, each_mv, strict=True) if p.valid}
     return tuple(p.model_copy(update={"potential_sd_mv": found.get(p.index)}) for p in points)

@@ -65,7 +65,7 @@ def classes_table(summary: SurfaceAssessment) -> Table:
         what: list[Text] = [class_chip(share.name), *ASTM_ROWS[share.name]]
         rows.append([*what, *counted(share)])
     not_counted = say("no value; not counted in the shares")
-    lost = [number(summary.invalid, 0), NOTHING, area(summary.invalid_area_m2)]
+    lost: list[Text] = [number(summary.invalid, 0), NOTHING, area(summary.invalid_area_m2)]
     rows.append([say("invalid"), NOTHING, not_counted, *lost])
     columns = [
         Column(say("Class")),

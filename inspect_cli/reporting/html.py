@@ -223,7 +223,7 @@ def _figure(figure: Figure, language: Language) -> Markup:
         "div",
         id=name,
         class_="plot",
-        role="img",
+        role="group",
         aria_label=language.plain(figure.description),
         style=f"height:{_height(figure)}",
     )

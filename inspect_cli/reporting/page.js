@@ -50,6 +50,10 @@
       displayModeBar: hovers ? "hover" : false,
       modeBarButtons: figure.layout.scene ? buttons3d : buttons2d,
     });
+    // The figure's label and caption say what it shows; loose numbers of its axes would not.
+    for (const drawing of plot.querySelectorAll("svg.main-svg, canvas")) {
+      drawing.setAttribute("aria-hidden", "true");
+    }
     plots.push(plot);
     await fit(plot);
     if (!figure.timed) return;

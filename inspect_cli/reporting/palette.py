@@ -1,5 +1,6 @@
 """One meaning, one colour, on the whole page. Colours after Okabe & Ito, Color Universal Design
-(2008): they stay apart for all common kinds of colour blindness. Nothing is told by colour alone:
+(2008), blue and vermilion somewhat darker and purple bluer than there, so that each pair in a
+figure stays apart for all common kinds of colour blindness. Nothing is told by colour alone:
 lines differ in dash, classes in marker shape, verdicts in words.
 """
 
@@ -22,9 +23,9 @@ BLACK = "#000000"
 ORANGE = "#e69f00"
 SKY_BLUE = "#56b4e9"
 GREEN = "#009e73"
-BLUE = "#0072b2"
-VERMILION = "#d55e00"
-PURPLE = "#cc79a7"
+BLUE = "#00639f"
+VERMILION = "#cc5500"
+PURPLE = "#c77aab"
 
 FONT = 'system-ui, -apple-system, "Segoe UI", Roboto, "Helvetica Neue", Arial, sans-serif'
 
@@ -105,7 +106,7 @@ MODE_COLOURS = {
 POTENTIAL_STOPS = {
     "passive": ("#edf5fb", "#93c7ea"),
     "uncertain": ("#f8dd9b", "#e69f00"),
-    "active": ("#d55e00", "#5e2600"),
+    "active": ("#cc5500", "#5e2600"),
 }
 """Colours of a potential map from a class's least to its most negative potential; they darken
 towards corrosion, so that the map keeps its order when printed in grey."""

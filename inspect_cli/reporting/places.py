@@ -21,7 +21,8 @@ from inspect_cli.reporting.evaluated import Evaluated
 from inspect_cli.reporting.points import ReadPoint
 from inspect_cli.reporting.potential_scale import potential_range, reading_text
 from inspect_cli.reporting.text import Text, count, separated
-from inspect_cli.schema.result import AstmClass, Corrosion
+from inspect_cli.schema.assessment import AstmClass
+from inspect_cli.schema.result import Corrosion
 
 Indices = NDArray[np.intp]
 

@@ -93,9 +93,6 @@ RECORDED: tuple[Said, ...] = (
     say("the odometry truly drifted otherwise than its model says"),
     say("no reading is valid"),
     say("no valid reading has a resistance"),
-    say("every valid potential is in the passive class: none stands out"),
-    say("the log does not hold what is truly so beneath a surface"),
-    say("the log does not hold what is truly so beneath a surface where points were planned"),
     # Why a metric of the assessment has no value.
     say("no point to read lies on a known surface"),
     say("several surfaces have populations of their own"),

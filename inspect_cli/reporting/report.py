@@ -3,9 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from pathlib import Path
 
-from inspect_cli.files import write_whole
 from inspect_cli.log.reader import RunLog
 from inspect_cli.records import Reference
 from inspect_cli.reporting.checks_table import checks_table
@@ -29,8 +27,6 @@ from inspect_cli.reporting.figures_forces import (
 from inspect_cli.reporting.figures_modes import modes_figure
 from inspect_cli.reporting.figures_scene import scene_figure
 from inspect_cli.reporting.figures_tracking import tracking_figures
-from inspect_cli.reporting.html import html
-from inspect_cli.reporting.language import language as language_of
 from inspect_cli.reporting.pictures import Rendered, pictures_sections
 from inspect_cli.reporting.points import ReadPoint, read_points
 from inspect_cli.reporting.provenance import provenance
@@ -57,41 +53,6 @@ from inspect_cli.reporting.told import told
 from inspect_cli.reporting.works import Works, kicker, works_of
 from inspect_cli.schema.plan import Plan
 from inspect_cli.schema.result import Result
-from inspect_cli.schema.survey import LanguageCode
-
-REPORT_NAME = "report.html"
-
-
-def write_report(
-    log: RunLog,
-    result: Result,
-    folder: Path,
-    language: LanguageCode = "en",
-    evaluated: Sequence[Evaluated] = (),
-    pictures: Rendered | None = None,
-) -> Path:
-    """Write ``report.html`` into ``folder``; return the page's path.
-
-    The page is one file that needs no network. It draws what ``result``, ``evaluated`` and ``log``
-    hold and computes no finding; the same of them give the same bytes.
-
-    Args:
-        log: the flight.
-        result: its metrics and points.
-        folder: where to.
-        language: of the page.
-        evaluated: the readings of each surface, evaluated.
-        pictures: what was rendered of the flight; None where none were wanted.
-
-    Raises:
-        LogError: the log lacks the attachments that the report stands on.
-        EnvironmentFault: the file cannot be written.
-    """
-    plan = log.plan()
-    path = folder / REPORT_NAME
-    document = report_document(log, result, plan, evaluated, pictures)
-    write_whole(path, html(document, language_of(language)))
-    return path
 
 
 def report_document(

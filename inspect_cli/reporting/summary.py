@@ -160,7 +160,7 @@ def key_figures(result: Result, works: Works, points: Sequence[ReadPoint]) -> Bo
     duration = number(result.value("flight.duration_s"), 0)
     return Boxes(
         [
-            *(_reading_boxes(points) if points else ()),
+            *(reading_boxes(points) if points else ()),
             *boxes(works, result),
             *(checks if result.checks or points else ()),
             Box(say("flight time"), duration, "s"),
@@ -168,7 +168,8 @@ def key_figures(result: Result, works: Works, points: Sequence[ReadPoint]) -> Bo
     )
 
 
-def _reading_boxes(points: Sequence[ReadPoint]) -> list[Box]:
+def reading_boxes(points: Sequence[ReadPoint]) -> list[Box]:
+    """The key figures of readings."""
     read = [p.point for p in points if p.point.potential_mv is not None]
     potentials = [point.potential_mv for point in read if point.potential_mv is not None]
     active = sum(p.corrosion == "active" for p in read)

@@ -3,9 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from pathlib import Path
 
-from inspect_cli.files import write_whole
 from inspect_cli.log.reader import RunLog
 from inspect_cli.reporting.content import (
     Block,
@@ -18,14 +16,12 @@ from inspect_cli.reporting.content import (
 )
 from inspect_cli.reporting.evaluated import Evaluated
 from inspect_cli.reporting.figures_survey import energy_figure, tour_figures
-from inspect_cli.reporting.html import html
-from inspect_cli.reporting.language import language as language_of
+from inspect_cli.reporting.page import REPORT_NAME
 from inspect_cli.reporting.pictures import Rendered, pictures_sections
 from inspect_cli.reporting.points import read_points
 from inspect_cli.reporting.provenance import provenance
 from inspect_cli.reporting.recorded import recorded
 from inspect_cli.reporting.report import (
-    REPORT_NAME,
     cover,
     summary,
     survey_content,
@@ -46,36 +42,6 @@ from inspect_cli.reporting.works import works_of
 from inspect_cli.schema.coverage import CoveragePlan, Skipped, Sortie
 from inspect_cli.schema.plan import Plan
 from inspect_cli.schema.result import Result
-from inspect_cli.schema.survey import LanguageCode
-
-
-def write_survey_report(
-    log: RunLog,
-    result: Result,
-    flown: Sequence[Result],
-    survey: CoveragePlan,
-    folder: Path,
-    language: LanguageCode = "en",
-    evaluated: Sequence[Evaluated] = (),
-    pictures: Rendered | None = None,
-) -> Path:
-    """Write ``report.html`` into ``folder``; return the page's path.
-
-    Args:
-        log: of the first sortie; mission, platform and versions are those of all.
-        result: of the whole survey.
-        flown: of the sorties that were flown, in their order.
-        survey: as it was flown, with the sorties that were added on the way.
-        folder: holds the sorties' own reports in folders of their own.
-        language: of the page.
-        evaluated: the readings of each surface, of all sorties together.
-        pictures: what was rendered of the first sortie; None where none were wanted.
-    """
-    plan = survey.joined()
-    path = folder / REPORT_NAME
-    document = survey_document(log, result, flown, survey, plan, evaluated, pictures)
-    write_whole(path, html(document, language_of(language)))
-    return path
 
 
 def survey_document(

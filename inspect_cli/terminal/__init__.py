@@ -8,7 +8,7 @@ from inspect_cli.terminal.installation import (
 from inspect_cli.terminal.plans import print_any_plan
 from inspect_cli.terminal.printing import print_lines, print_problems
 from inspect_cli.terminal.progress import flight_progress, regression_progress
-from inspect_cli.terminal.results import print_flight, print_report
+from inspect_cli.terminal.results import print_flight, print_readings, print_report
 from inspect_cli.terminal.studies import print_regression, print_study
 
 __all__ = [
@@ -20,6 +20,7 @@ __all__ = [
     "print_flight",
     "print_lines",
     "print_problems",
+    "print_readings",
     "print_regression",
     "print_report",
     "print_study",

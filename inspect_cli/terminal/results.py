@@ -13,11 +13,13 @@ from rich.text import Text
 from inspect_cli.reporting.published import number_of
 
 if TYPE_CHECKING:
+    from inspect_cli.schema.readings import ReadingsResult
     from inspect_cli.schema.result import Check, PointResult, Result
 from inspect_cli.terminal.printing import (
     BAD,
     UNSURE,
     console,
+    counted,
     grouped,
     near,
     number,
@@ -132,3 +134,27 @@ def _bounds(check: Check) -> str:
     low = "" if check.min is None else f"≥ {check.min:g}"
     high = "" if check.max is None else f"≤ {check.max:g}"
     return "\n".join(bound for bound in (low, high) if bound)
+
+
+def print_readings(result: ReadingsResult, page: Path) -> None:
+    """What the readings of a file come to, what was assumed, and where the page is."""
+    out = console()
+    out.print(f"{result.survey}: half-cell potentials against CSE", soft_wrap=True)
+    for surface in result.assessment:
+        table = table_of("classes of ASTM C876", "class", "points", "share", "area\n/m²")
+        for share in surface.astm:
+            area = number(share.area_m2, ".3g")
+            table.add_row(share.name, str(share.count), f"{share.share:.1%}", area)
+        out.print(table)
+        potential = surface.potential
+        if potential is not None:
+            out.print(
+                f"{counted(surface.valid, 'point')} from {potential.min_mv:.0f} to "
+                f"{potential.max_mv:.0f} mV, median {potential.median_mv:.0f} mV; "
+                f"{surface.invalid} without a reading",
+                soft_wrap=True,
+            )
+    if result.assumed:
+        out.print(f"assumed: {', '.join(result.assumed)} (see the report)", soft_wrap=True)
+    print_warnings(result.warnings)
+    out.print(f"report: {near(page)}", soft_wrap=True)

@@ -10,7 +10,7 @@ from rich.table import Table
 
 from inspect_cli.files import write_whole
 from inspect_cli.schema.loading import load_mission
-from tests.bench import camera, fits, flights, processes, surveys
+from tests.bench import camera, fits, flights, processes, readings, surveys
 from tests.bench.rows import Row, as_json
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -30,6 +30,7 @@ def main() -> int:
         flights.measure(load_mission(VAULTS / "cylinder.yaml"), "vault"),
         flights.measure(load_mission(VAULTS / "uneven.yaml"), "uneven_vault"),
         processes.measure(MISSION),
+        readings.measure(),
         surveys.measure(SURVEY),
     ):
         rows.extend(measured)

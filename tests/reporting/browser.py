@@ -10,8 +10,12 @@ from typing import Any
 
 from playwright.sync_api import Browser, ConsoleMessage, Dialog, Error, Page
 
-DESKTOP = {"viewport": {"width": 1280, "height": 900}}
-PHONE = {"viewport": {"width": 390, "height": 844}, "is_mobile": True, "has_touch": True}
+DESKTOP: dict[str, Any] = {"viewport": {"width": 1280, "height": 900}}
+PHONE: dict[str, Any] = {
+    "viewport": {"width": 390, "height": 844},
+    "is_mobile": True,
+    "has_touch": True,
+}
 PAPER_PX = 703
 """186 mm, the width of A4 without its margins, at 96 px to the inch."""
 

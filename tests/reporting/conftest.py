@@ -8,13 +8,14 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from evaluated_points import evaluated_of
 from example_flights import Flight, survey
 from playwright.sync_api import Browser, sync_playwright
 from report_pages import Page, Reported
 
+from inspect_cli.commands.delivery import Wanted, deliver
+from inspect_cli.commands.evaluating import evaluated_points
 from inspect_cli.metrics.evaluate import evaluate
-from inspect_cli.reporting.report import write_report
+from inspect_cli.reporting.report import report_document
 
 
 @pytest.fixture
@@ -24,8 +25,8 @@ def report(tmp_path: Path) -> Callable[[Flight], Reported]:
     def write(flight: Flight) -> Reported:
         log = flight.log()
         result = evaluate(log)
-        evaluated = evaluated_of(result, flight.plan)
-        path = write_report(log, result, tmp_path, evaluated=evaluated)
+        document = report_document(log, result, log.plan(), evaluated_points(result.points, log))
+        path = deliver(tmp_path, document, Wanted())
         return Reported(flight, result, path, Page(path.read_text(encoding="utf-8")))
 
     return write

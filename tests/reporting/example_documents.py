@@ -5,10 +5,10 @@ from __future__ import annotations
 from collections.abc import Callable
 from pathlib import Path
 
-from evaluated_points import evaluated_of
 from example_flights import Flight, spoil
 from experiment_flights import drawing, force_evaluation, hold, servoing
 
+from inspect_cli.commands.evaluating import evaluated_points
 from inspect_cli.commands.study import STUDIES
 from inspect_cli.metrics.evaluate import evaluate
 from inspect_cli.records import InvalidReason, Reading
@@ -35,7 +35,7 @@ def flown(flight: Flight) -> Document:
     """The report of a flight."""
     log = flight.log()
     result = evaluate(log)
-    evaluated = evaluated_of(result, flight.plan)
+    evaluated = evaluated_points(result.points, log)
     return report_document(log, result, flight.plan, evaluated)
 
 
@@ -54,7 +54,7 @@ def surveyed(flight: Flight) -> Document:
     log = flight.log()
     result = evaluate(log)
     late = result.model_copy(update={"status": "aborted", "status_reason": "das Seil riss"})
-    evaluated = evaluated_of(result, flight.plan)
+    evaluated = evaluated_points(result.points, log)
     survey = coverage(flight.plan)
     return survey_document(log, result, [result, late], survey, flight.plan, evaluated)
 

@@ -9,7 +9,6 @@ from pathlib import Path
 
 import pytest
 from babel.messages.pofile import read_po
-from evaluated_points import evaluated_of
 from example_documents import ACCEPTANCE, FLIGHTS, flown, studied, study_result, surveyed
 from example_flights import Flight, spoil
 from report_pages import Page, Reported
@@ -17,6 +16,8 @@ from said_texts import names, reasons, said
 from visible_words import Pseudo, foreign, left_over, shown, visible
 
 from inspect_cli import cli
+from inspect_cli.commands.delivery import Wanted, deliver
+from inspect_cli.commands.evaluating import evaluated_points
 from inspect_cli.commands.study import STUDIES
 from inspect_cli.metrics.flight import Flight as Logged
 from inspect_cli.metrics.points import point_results
@@ -27,7 +28,7 @@ from inspect_cli.reporting.html import html
 from inspect_cli.reporting.language import LANGUAGES, language
 from inspect_cli.reporting.points import ReadPoint
 from inspect_cli.reporting.recorded import RECORDED, recorded
-from inspect_cli.reporting.report import write_report
+from inspect_cli.reporting.report import report_document
 from inspect_cli.reporting.text import Said, count, number, say, significant
 from inspect_cli.schema.result import Metric
 from inspect_cli.schema.study import Quantity, StudyResult, StudyVariant
@@ -168,8 +169,9 @@ def test_the_pseudo_language_finds_what_is_left() -> None:
 def test_german_has_its_own_signs(fly: Fly, report: Report, tmp_path: Path) -> None:
     flight = fly(acceptance=ACCEPTANCE)
     log, english = flight.log(), report(flight)
-    evaluated = evaluated_of(english.result, flight.plan)
-    path = write_report(log, english.result, tmp_path, "de", evaluated)
+    evaluated = evaluated_points(english.result.points, log)
+    document = report_document(log, english.result, log.plan(), evaluated)
+    path = deliver(tmp_path, document, Wanted("de"))
     page = Page(path.read_text(encoding="utf-8"))
     assert '<html lang="de">' in page.source
     assert '<html lang="en">' in english.page.source

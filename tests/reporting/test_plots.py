@@ -11,9 +11,9 @@ from typing import Any
 
 import numpy as np
 import pytest
-from evaluated_points import evaluated_of
 from example_flights import spoil, survey
 
+from inspect_cli.commands.evaluating import evaluated_points
 from inspect_cli.metrics.evaluate import evaluate
 from inspect_cli.records import InvalidReason, Reference
 from inspect_cli.reporting.figure import Figure, numbers, words
@@ -49,7 +49,7 @@ def figures() -> dict[str, Figure]:
     log = flight.log()
     result = evaluate(log)
     points = read_points(result, flight.plan)
-    (evaluated,) = evaluated_of(result, flight.plan)
+    (evaluated,) = evaluated_points(result.points, log)
     timeline = timeline_of(rows_of(log, Reference), flight.plan)
     found = [
         map_figure(0, evaluated, shared_range([evaluated]), {}),

@@ -78,7 +78,7 @@ def texts(seen: Visit) -> list[str]:
 
 def a_flight(fly: Fly) -> tuple[Document, set[str]]:
     """The report of a flight of which every text is hostile, and what it has to show."""
-    flight = fly(2, 3, acceptance=ACCEPTANCE)
+    flight = fly(1, 3, acceptance=ACCEPTANCE)
     spoil(flight, 1, InvalidReason.FORCE)
     flight.status, flight.status_reason = "aborted", "it fell"
     log = hostile_log(flight)

@@ -8,12 +8,12 @@ from collections.abc import Callable
 
 import numpy as np
 import pytest
-from evaluated_points import evaluated_of
 from example_flights import Flight, spoil
 from plotly.offline import get_plotlyjs
 from report_pages import Page, Reported, decoded, trace
 
 from inspect_cli.assessment.classes import COMBINED_RULE
+from inspect_cli.commands.evaluating import evaluated_points
 from inspect_cli.metrics.evaluate import evaluate
 from inspect_cli.records import (
     Command,
@@ -29,7 +29,7 @@ from inspect_cli.records import (
 )
 from inspect_cli.reporting.html import html
 from inspect_cli.reporting.language import language
-from inspect_cli.reporting.report import report_document, write_report
+from inspect_cli.reporting.report import report_document
 from inspect_cli.schema.result import Metric
 
 Fly = Callable[..., Flight]
@@ -125,7 +125,7 @@ def test_a_long_flight_stays_small_and_quick(fly: Fly) -> None:
     log = flight.log()
     result = evaluate(log)
     begin = time.process_time()
-    evaluated = evaluated_of(result, flight.plan)
+    evaluated = evaluated_points(result.points, log)
     page = html(report_document(log, result, log.plan(), evaluated), language("en"))
     assert time.process_time() - begin < 2.0
     assert len(page.encode()) - len(get_plotlyjs().encode()) < 3e6
@@ -240,13 +240,6 @@ def test_one_point_and_other_vehicles(fly: Fly, report: Report) -> None:
     assert len(panels) == 2  # thrust and saturation; a vehicle without joints has no third
     page = report(fly(1, 2, n_rotors=8, n_joints=11)).page
     assert len(page.figures["actuators"]["data"]) == 2 * (8 + 11) + 1
-
-
-def test_write_report_returns_the_page(fly: Fly, tmp_path) -> None:
-    log = fly(1, 1).log()
-    path = write_report(log, evaluate(log), tmp_path / "new" / "folder")
-    assert path == tmp_path / "new" / "folder" / "report.html"
-    assert sorted(p.name for p in path.parent.iterdir()) == ["report.html"]
 
 
 def test_points_active_by_potential_alone_are_named(fly: Fly, report: Report) -> None:

@@ -1,4 +1,4 @@
-"""Readings evaluated for the tests of the report: those of a flight, and made up ones."""
+"""Readings of a surface that nobody flew over, evaluated."""
 
 from __future__ import annotations
 
@@ -9,21 +9,12 @@ from numpy.typing import ArrayLike
 
 from inspect_cli.assessment.assess import assess
 from inspect_cli.assessment.classes import astm_class, combined_verdict
-from inspect_cli.assessment.kriging import krige
-from inspect_cli.assessment.readings import Readings, readings_of
+from inspect_cli.assessment.readings import Readings
+from inspect_cli.commands.evaluating import mapped
 from inspect_cli.reporting.evaluated import Evaluated
-from inspect_cli.reporting.points import ReadPoint, read_points
+from inspect_cli.reporting.points import ReadPoint
 from inspect_cli.schema.assessment import Basis
-from inspect_cli.schema.plan import Plan
-from inspect_cli.schema.result import PointResult, Result
-
-
-def evaluated_of(result: Result, plan: Plan) -> list[Evaluated]:
-    """The readings of each surface of a flight."""
-    points = read_points(result, plan)
-    names = dict.fromkeys(p.surface for p in points if p.surface)
-    own = {n: [p.point for p in points if p.surface == n and p.point.uv_m] for n in names}
-    return [_evaluated(n, readings_of(found, 0.003), None) for n, found in own.items() if found]
+from inspect_cli.schema.result import PointResult
 
 
 def surveyed(
@@ -45,14 +36,7 @@ def surveyed(
         resistivity_ohm_m=rho.reshape(-1).astype(np.float64),
         measurement_sd_v=np.full(n, 0.002),
     )
-    return _evaluated(surface, readings, basis)
-
-
-def _evaluated(surface: str, readings: Readings, basis: Basis | None) -> Evaluated:
-    assessed = assess(surface, readings, basis=basis)
-    found = assessed.readings
-    kriged = krige(found.uv_m, found.potential_v, assessed.budget.reading_v)
-    return Evaluated(assessed, kriged)
+    return mapped(assess(surface, readings, basis=basis))
 
 
 def points_of(evaluated: Evaluated) -> list[ReadPoint]:

@@ -1,0 +1,100 @@
+"""The files of a report: page, PDF, and readings for other programs.
+
+A folder holds one report: a file of an earlier one that has no successor is removed.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Literal, get_args
+
+from inspect_cli.errors import InputError
+from inspect_cli.exchange.readings import HandedReadings
+from inspect_cli.files import write_whole
+from inspect_cli.log.reader import RunLog
+from inspect_cli.reporting.content import Document
+from inspect_cli.reporting.html import html
+from inspect_cli.reporting.language import language as language_of
+from inspect_cli.reporting.page import REPORT_NAME
+from inspect_cli.schema.explain import suggest
+from inspect_cli.schema.result import Result
+from inspect_cli.schema.survey import Georeference, LanguageCode
+
+PDF_NAME = "report.pdf"
+Export = Literal["geojson", "ifc"]
+EXPORTS: dict[Export, str] = {"geojson": "readings.geojson", "ifc": "readings.ifc"}
+"""The files by what they are for."""
+
+
+@dataclass(frozen=True)
+class Wanted:
+    """What a report consists of besides its page, its metrics and its table."""
+
+    language: LanguageCode = "en"
+    pictures: bool = False
+    pdf: bool = False
+    exports: tuple[Export, ...] = ()
+
+
+def exports_of(text: str) -> tuple[Export, ...]:
+    """The exports that an option names, with commas between them.
+
+    Raises:
+        InputError: one is not known.
+    """
+    found: list[Export] = []
+    for name in (part.strip() for part in text.split(",") if part.strip()):
+        known = next((export for export in get_args(Export) if export == name), None)
+        if known is None:
+            raise InputError(f"--export: there is no '{name}'", hint=suggest(name, list(EXPORTS)))
+        found.append(known)
+    return tuple(dict.fromkeys(found))
+
+
+def deliver(folder: Path, document: Document, wanted: Wanted) -> Path:
+    """Write the page, and the PDF where it is wanted, of one content; return the page's path."""
+    language = language_of(wanted.language)
+    page = folder / REPORT_NAME
+    write_whole(page, html(document, language))
+    if wanted.pdf:
+        # matplotlib and typst are loaded for this alone.
+        from inspect_cli.reporting.typeset import write_pdf
+
+        write_pdf(document, language, folder / PDF_NAME)
+    else:
+        (folder / PDF_NAME).unlink(missing_ok=True)
+    return page
+
+
+def export(
+    folder: Path,
+    readings: HandedReadings,
+    wanted: Wanted,
+    georeference: Georeference | None = None,
+) -> None:
+    """Write the readings for maps and models of buildings.
+
+    Raises:
+        EnvironmentFault: what writes a model is not installed.
+    """
+    for name, file in EXPORTS.items():
+        if name not in wanted.exports:
+            (folder / file).unlink(missing_ok=True)
+    if "geojson" in wanted.exports:
+        from inspect_cli.exchange.geojson import geojson
+
+        write_whole(folder / EXPORTS["geojson"], geojson(readings, georeference))
+    if "ifc" in wanted.exports:
+        from inspect_cli.exchange.ifc import ifc
+
+        write_whole(folder / EXPORTS["ifc"], ifc(readings, georeference))
+
+
+def handed_readings(log: RunLog, result: Result) -> HandedReadings:
+    """The readings of a flight, or of the sorties of a survey."""
+    return HandedReadings(
+        points=result.points,
+        title=log.mission().title or result.mission,
+        electrode=log.platform().sensors.half_cell.electrode,
+    )
