@@ -8,6 +8,7 @@ from pathlib import Path
 from example_flights import Flight, spoil
 from experiment_flights import drawing, force_evaluation, hold, servoing
 
+from inspect_cli.commands.evaluating import evaluated_points
 from inspect_cli.commands.study import STUDIES
 from inspect_cli.metrics.evaluate import evaluate
 from inspect_cli.records import InvalidReason, Reading
@@ -33,7 +34,9 @@ ACCEPTANCE = (
 def flown(flight: Flight) -> Document:
     """The report of a flight."""
     log = flight.log()
-    return report_document(log, evaluate(log), flight.plan)
+    result = evaluate(log)
+    evaluated = evaluated_points(result.points, log)
+    return report_document(log, result, flight.plan, evaluated)
 
 
 def coverage(plan: Plan) -> CoveragePlan:
@@ -51,7 +54,9 @@ def surveyed(flight: Flight) -> Document:
     log = flight.log()
     result = evaluate(log)
     late = result.model_copy(update={"status": "aborted", "status_reason": "das Seil riss"})
-    return survey_document(log, result, [result, late], coverage(flight.plan), flight.plan)
+    evaluated = evaluated_points(result.points, log)
+    survey = coverage(flight.plan)
+    return survey_document(log, result, [result, late], survey, flight.plan, evaluated)
 
 
 def study_result(name: str) -> StudyResult:

@@ -13,16 +13,20 @@ import numpy as np
 import pytest
 from example_flights import spoil, survey
 
+from inspect_cli.commands.evaluating import evaluated_points
 from inspect_cli.metrics.evaluate import evaluate
 from inspect_cli.records import InvalidReason, Reference
 from inspect_cli.reporting.figure import Figure, numbers, words
-from inspect_cli.reporting.figures_corrosion import cumulative_figure, resistivity_figure
+from inspect_cli.reporting.figures_error import error_figure
 from inspect_cli.reporting.figures_forces import actuator_figures, force_figures
-from inspect_cli.reporting.figures_map import map_figures
+from inspect_cli.reporting.figures_map import map_figure
 from inspect_cli.reporting.figures_modes import modes_figure
+from inspect_cli.reporting.figures_populations import cumulative_figure, histogram_figure
+from inspect_cli.reporting.figures_resistivity import resistivity_figure
 from inspect_cli.reporting.figures_scene import scene_figure
 from inspect_cli.reporting.figures_tracking import tracking_figures
 from inspect_cli.reporting.language import Language, language
+from inspect_cli.reporting.places import shared_range
 from inspect_cli.reporting.plot_axes import round_ticks
 from inspect_cli.reporting.plot_scale import SCALES, MapScale, scale_for
 from inspect_cli.reporting.plot_text import label_lines, rgba
@@ -43,12 +47,16 @@ def figures() -> dict[str, Figure]:
     flight = survey(PLATFORM, 3, 5)
     spoil(flight, 7, InvalidReason.FORCE)
     log = flight.log()
-    points = read_points(evaluate(log), flight.plan)
+    result = evaluate(log)
+    points = read_points(result, flight.plan)
+    (evaluated,) = evaluated_points(result.points, log)
     timeline = timeline_of(rows_of(log, Reference), flight.plan)
     found = [
-        *map_figures(points, flight.plan),
-        cumulative_figure(points),
-        resistivity_figure(points),
+        map_figure(0, evaluated, shared_range([evaluated]), {}),
+        error_figure(0, evaluated),
+        cumulative_figure(0, evaluated),
+        histogram_figure(0, evaluated),
+        resistivity_figure(0, evaluated),
         *tracking_figures(log, timeline),
         *force_figures(log, flight.plan, timeline),
         *actuator_figures(log, timeline),
@@ -104,7 +112,7 @@ def test_every_figure_of_a_flight_can_be_drawn(figures: dict[str, Figure]) -> No
 
 
 def test_words_of_the_drawing_are_the_figures(figures: dict[str, Figure]) -> None:
-    shown = texts(drawn(figures["resistivity"]))
+    shown = texts(drawn(figures["resistivity-1"]))
     assert "potential (mV CSE)" in shown
     assert "resistivity (Ω·m), log scale" in shown
     assert {"corrosion: none", "corrosion: active"} & set(shown)
@@ -124,7 +132,8 @@ def test_a_map_is_exactly_to_its_scale(figures: dict[str, Figure]) -> None:
     plot = drawn(figures["map-1"])
     assert plot.scale == MapScale(2.0)
     mm = markers_mm(plot)
-    assert len(mm) == 15
+    marks = [t["x"] for t in figures["map-1"].traces if t.get("mode") == "markers"]
+    assert len(mm) == sum(x is not None for column in marks for x in column) > 15
     assert np.ptp(mm[:, 0]) == pytest.approx(0.2 * 1e3 / 2.0, abs=0.01)
     assert np.ptp(mm[:, 1]) == pytest.approx(0.1 * 1e3 / 2.0, abs=0.01)
     assert "Scale 1 : 2, printed at full size" in texts(plot)

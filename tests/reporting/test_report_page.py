@@ -13,6 +13,7 @@ from plotly.offline import get_plotlyjs
 from report_pages import Page, Reported, decoded, trace
 
 from inspect_cli.assessment.classes import COMBINED_RULE
+from inspect_cli.commands.evaluating import evaluated_points
 from inspect_cli.metrics.evaluate import evaluate
 from inspect_cli.records import (
     Command,
@@ -55,9 +56,9 @@ def test_a_completed_flight_is_told_in_order(fly: Fly, report: Report) -> None:
         "✗ fail",
         "This is a simulated flight.",
         "interpretation to a specialist",
-        "not corrected for temperature",
-        "Readings by point.",
+        "not corrected for temperature: the temperature is not known",
         COMBINED_RULE,
+        "Readings by point.",
         "Errors of tracking and estimation.",
         "Surfaces as the planner believed them.",
         "offset ± 0.02 mm, tilt ± 0.03 mrad",
@@ -73,8 +74,10 @@ def test_every_figure_is_there_and_described(fly: Fly, report: Report) -> None:
     page = report(fly(2, 3)).page
     assert list(page.figures) == [
         "map-1",
-        "cumulative",
-        "resistivity",
+        "error-1",
+        "cumulative-1",
+        "histogram-1",
+        "resistivity-1",
         "position",
         "position-error",
         "attitude",
@@ -122,7 +125,8 @@ def test_a_long_flight_stays_small_and_quick(fly: Fly) -> None:
     log = flight.log()
     result = evaluate(log)
     begin = time.process_time()
-    page = html(report_document(log, result, log.plan()), language("en"))
+    evaluated = evaluated_points(result.points, log)
+    page = html(report_document(log, result, log.plan(), evaluated), language("en"))
     assert time.process_time() - begin < 2.0
     assert len(page.encode()) - len(get_plotlyjs().encode()) < 3e6
 

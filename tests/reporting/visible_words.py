@@ -38,7 +38,7 @@ UNITS = {
     "cm",
     "Ω",
 }
-SYMBOLS = {*"abpuvxyzEFRfτθ", "Δ", "K", "K_I", "e"}
+SYMBOLS = {*"abpuvxyzEFRfρτθ", "Δ", "K", "K_I", "e"}
 NAMES = {"ASTM", "C", "SHA", "RMS"}
 """What every language writes alike: units, symbols, names of standards."""
 SHOWN_KEYS = {"text", "title", "name", "ticktext", "customdata", "hovertemplate", "x", "y"}
