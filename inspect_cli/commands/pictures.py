@@ -35,15 +35,19 @@ def pictured(
     """
     taken = Pictures()
     if wanted:
-        words = language_of(language)
-        styles = {
-            name: LegendEntry(words.plain(style.label), style.colour, style.symbol)
-            for name, style in {**ASTM_STYLES, "invalid": INVALID_STYLE}.items()
-        }
-        taken = take_pictures(log, result, styles, flight)
+        taken = take_pictures(log, result, mark_styles(language), flight)
     for name, content in ((SCENE_NAME, taken.scene_png), (FILM_NAME, taken.film_mp4)):
         if content is None:
             (folder / name).unlink(missing_ok=True)
         else:
             write_whole(folder / name, content)
     return taken if wanted else None
+
+
+def mark_styles(language: LanguageCode) -> dict[str, LegendEntry]:
+    """How readings are marked in pictures, by their class, in the words of a language."""
+    words = language_of(language)
+    return {
+        name: LegendEntry(words.plain(style.label), style.colour, style.symbol)
+        for name, style in {**ASTM_STYLES, "invalid": INVALID_STYLE}.items()
+    }

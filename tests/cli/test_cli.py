@@ -99,7 +99,7 @@ def test_a_missing_mission_is_answered_with_its_neighbours(
 ) -> None:
     assert cli.run(["plan", str(campaign / "missions" / "nine_point_halfcell.yaml")]) == 2
     near = campaign / "missions" / "nine_point_half_cell.yaml"
-    assert f"there is no such file\n    did you mean {near}?\n" in capsys.readouterr().err
+    assert f"there is no such file\n    did you mean {near}" in capsys.readouterr().err
 
 
 def test_completion_is_offered(shell: Shell) -> None:

@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 from PIL import Image
 
+from inspect_cli.commands.pictures import mark_styles
 from inspect_cli.log.reader import RunLog
 from inspect_cli.pictures.direction import direct
 from inspect_cli.pictures.lettering import lettered, png_of
@@ -16,12 +17,11 @@ from inspect_cli.pictures.stage import slab
 from inspect_cli.pictures.take import take_pictures
 from inspect_cli.pictures.views import framed, in_frame
 from inspect_cli.records import Mode
-from inspect_cli.reporting.palette import ASTM_STYLES, INVALID_STYLE
 from inspect_cli.schema.geometry import Shape
 from inspect_cli.schema.primitives import primitive_of
 from inspect_cli.spatial.primitives import project
 
-STYLES = {**ASTM_STYLES, "invalid": INVALID_STYLE}
+STYLES = mark_styles("en")
 SHAPES = {
     "wall": flights.WALL,
     "soffit": flights.SOFFIT,
@@ -98,7 +98,7 @@ def test_a_stroke_leaves_a_trace(root, tmp_path) -> None:
 def test_invalid_readings_and_unknown_classes_have_their_mark(root, tmp_path) -> None:
     log = flights.write_flight(tmp_path / "flight.mcap", root, flights.plan())
     script = direct(log, flights.result(invalid=0), STYLES).script
-    assert [entry.label for entry in script.legend][-1] == INVALID_STYLE.label
+    assert [entry.label for entry in script.legend][-1] == STYLES["invalid"].label
     assert direct(log, flights.result(), {}).script.legend == ()
 
 

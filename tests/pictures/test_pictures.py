@@ -14,14 +14,15 @@ import numpy as np
 import pytest
 from PIL import Image
 
+from inspect_cli.commands.pictures import mark_styles
 from inspect_cli.pictures import take
 from inspect_cli.pictures.script import FILM_PX, FPS, SCENE_PX
 from inspect_cli.pictures.take import Pictures, take_pictures
-from inspect_cli.reporting.palette import ASTM_STYLES, INVALID_STYLE
+from inspect_cli.reporting.palette import ASTM_STYLES
 
 pytestmark = pytest.mark.xdist_group("pictures")  # one rendering for all
 
-STYLES = {**ASTM_STYLES, "invalid": INVALID_STYLE}
+STYLES = mark_styles("en")
 COLOUR_TOLERANCE = 22
 """Marks are drawn within 6 % of their colour, and levels are a few apart."""
 

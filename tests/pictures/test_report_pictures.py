@@ -20,7 +20,9 @@ def test_pictures_are_written_beside_the_page(log, tmp_path, monkeypatch) -> Non
     both = Pictures(b"png", "a scene", b"mp4", "a film")
     told = []
     monkeypatch.setattr(module, "take_pictures", lambda *given: told.append(given[-1]) or both)
-    assert pictured(log, flights.result(), tmp_path, wanted=True, flight="sortie 1 of 3") == both
+    assert (
+        pictured(log, flights.result(), tmp_path, "en", wanted=True, flight="sortie 1 of 3") == both
+    )
     assert told == ["sortie 1 of 3"]
     assert (tmp_path / "scene.png").read_bytes() == b"png"
     assert (tmp_path / "film.mp4").read_bytes() == b"mp4"
@@ -32,7 +34,9 @@ def test_a_folder_keeps_no_pictures_of_another_flight(log, tmp_path, monkeypatch
         (tmp_path / name).write_bytes(b"old")
     none = Pictures(note="No pictures: no driver.")
     monkeypatch.setattr(module, "take_pictures", lambda *given: none)
-    assert pictured(log, flights.result(), tmp_path, wanted=wanted) == (none if wanted else None)
+    assert pictured(log, flights.result(), tmp_path, "en", wanted=wanted) == (
+        none if wanted else None
+    )
     assert {file.name for file in tmp_path.iterdir()} == {"flight.mcap"}
 
 
@@ -41,5 +45,5 @@ def test_a_log_is_all_that_pictures_need(log, tmp_path, monkeypatch) -> None:
     moved = tmp_path / "elsewhere" / "flight.mcap"
     moved.parent.mkdir()
     log.path.rename(moved)
-    taken = pictured(read_log(moved), flights.result(), moved.parent, wanted=True)
+    taken = pictured(read_log(moved), flights.result(), moved.parent, "en", wanted=True)
     assert taken.note.startswith("No pictures: the renderer failed")
