@@ -24,9 +24,10 @@ from inspect_cli.reporting.evaluation_statistics import (
     statistics_blocks,
 )
 from inspect_cli.reporting.evaluation_told import evaluation_method
+from inspect_cli.reporting.figures_cumulative import cumulative_figure
 from inspect_cli.reporting.figures_error import error_figure
+from inspect_cli.reporting.figures_histogram import histogram_figure
 from inspect_cli.reporting.figures_map import map_figure
-from inspect_cli.reporting.figures_populations import cumulative_figure, histogram_figure
 from inspect_cli.reporting.figures_resistivity import resistivity_figure
 from inspect_cli.reporting.map_frame import TALL, frame_of
 from inspect_cli.reporting.places import points_on, shared_range

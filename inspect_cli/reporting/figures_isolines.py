@@ -99,7 +99,7 @@ def values(kriged: KrigedMap, px_per_m: float, readings_m: Points) -> list[Json]
             "x": [float(place[0]) for place in at],
             "y": [float(place[1]) for place in at],
             "text": texts,
-            "textfont": {"size": 10, "color": INK, "shadow": HALO},
+            "textfont": {"size": 11, "color": INK, "shadow": HALO},
             "hoverinfo": "skip",
             "showlegend": False,
         }

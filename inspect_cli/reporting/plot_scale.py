@@ -14,7 +14,7 @@ from inspect_cli.reporting.text import Text, number, say
 
 SCALES = tuple(m * 10**power for power in range(6) for m in (1, 2, 5, *((2.5,) if power else ())))
 """1 : 1, 1 : 2, 1 : 5, 1 : 10, 1 : 20, 1 : 25, 1 : 50 and so on, ISO 5455's with 25 and 250."""
-BAR_SHARES = (0.1, 0.3)
+BAR_SHARES = (0.08, 0.2)
 """Least and greatest length of a scale bar, of the drawing's width: words stand beside it."""
 BAR_HEIGHT_MM = 1.3
 

@@ -17,11 +17,12 @@ from inspect_cli.commands.evaluating import evaluated_points
 from inspect_cli.metrics.evaluate import evaluate
 from inspect_cli.records import InvalidReason, Reference
 from inspect_cli.reporting.figure import Figure, numbers, words
+from inspect_cli.reporting.figures_cumulative import cumulative_figure
 from inspect_cli.reporting.figures_error import error_figure
 from inspect_cli.reporting.figures_forces import actuator_figures, force_figures
+from inspect_cli.reporting.figures_histogram import histogram_figure
 from inspect_cli.reporting.figures_map import map_figure
 from inspect_cli.reporting.figures_modes import modes_figure
-from inspect_cli.reporting.figures_populations import cumulative_figure, histogram_figure
 from inspect_cli.reporting.figures_resistivity import resistivity_figure
 from inspect_cli.reporting.figures_scene import scene_figure
 from inspect_cli.reporting.figures_tracking import tracking_figures
