@@ -1,7 +1,7 @@
 """What differences between readings say: corroding minima, and where to read more closely.
 
 Absolute potentials mean different things on different structures; a steep rise around a negative
-minimum means active corrosion on all of them. The criterion of RILEM TC 154-EMC, about 100 mV
+minimum indicates active corrosion on all of them. The criterion of RILEM TC 154-EMC, about 100 mV
 within 1 m, is made definite here:
 
     minimum   a valid, negative reading that no neighbour undercuts, at the bottom of a hollow at

@@ -83,6 +83,14 @@ def report(
             rich_help_panel=READINGS,
         ),
     ] = None,
+    orientation: Annotated[
+        str | None,
+        typer.Option(
+            metavar="level|upright",
+            help="How a surface without z lies in space.",
+            rich_help_panel=READINGS,
+        ),
+    ] = None,
     sheet: Annotated[
         str | None,
         typer.Option(metavar="NAME", help="Of a workbook.", rich_help_panel=READINGS),
@@ -103,6 +111,7 @@ def report(
         "coordinate_unit": coordinate_unit,
         "layout": layout,
         "sign": sign,
+        "orientation": orientation,
         "sheet": sheet,
         "title": title,
         "language": language,

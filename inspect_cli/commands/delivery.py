@@ -52,6 +52,20 @@ def exports_of(text: str) -> tuple[Export, ...]:
     return tuple(dict.fromkeys(found))
 
 
+def report_folder(folder: Path) -> Path:
+    """The folder of a report, made if it is not there.
+
+    Raises:
+        InputError: it cannot be.
+    """
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+    except OSError as error:
+        what = f"{folder} cannot be a folder: {error.strerror}"
+        raise InputError(what, hint="choose another with --out") from error
+    return folder
+
+
 def deliver(folder: Path, document: Document, wanted: Wanted) -> Path:
     """Write the page, and the PDF where it is wanted, of one content; return the page's path."""
     language = language_of(wanted.language)

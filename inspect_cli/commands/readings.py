@@ -26,7 +26,7 @@ from inspect_cli.assessment.electrodes import standardised
 from inspect_cli.assessment.kriging import KrigedMap
 from inspect_cli.assessment.mixture import resolution_of
 from inspect_cli.assessment.readings import Readings
-from inspect_cli.commands.delivery import Export, Wanted, deliver, export
+from inspect_cli.commands.delivery import Export, Wanted, deliver, export, report_folder
 from inspect_cli.commands.evaluating import mapped
 from inspect_cli.commands.runs import READINGS_NAME, write_model
 from inspect_cli.exchange.readings import HandedReadings
@@ -80,8 +80,7 @@ def report_readings(
     evaluated = mapped(assess(name, readings, basis=basis))
     points = points_of(name, survey, readings, evaluated.assessed)
     result = _result(file, survey, evaluated)
-    folder = out or Path("reports") / file.stem
-    folder.mkdir(parents=True, exist_ok=True)
+    folder = report_folder(out or Path("reports") / file.stem)
     write_model(folder / "metrics.json", result)
     write_whole(folder / READINGS_NAME, readings_csv(points))
     handed = HandedReadings(

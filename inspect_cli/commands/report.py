@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
-from inspect_cli.commands.delivery import Wanted, deliver, export, handed_readings
+from inspect_cli.commands.delivery import Wanted, deliver, export, handed_readings, report_folder
 from inspect_cli.commands.evaluating import evaluated_points
 from inspect_cli.commands.pictures import pictured
 from inspect_cli.commands.runs import log_of, write_model, write_readings
@@ -47,8 +47,7 @@ def _report_one(run: Path, folder: Path, wanted: Wanted) -> ReportOutcome:
         return ReportOutcome(*report_survey(run, survey, folder, wanted))
     log = read_log(log_of(run))
     result, plan = evaluate(log), log.plan()
-    folder.mkdir(parents=True, exist_ok=True)
-    write_model(folder / "metrics.json", result)
+    write_model(report_folder(folder) / "metrics.json", result)
     write_readings(folder, result)
     export(folder, handed_readings(log, result), wanted)
     taken = pictured(log, result, folder, wanted.language, wanted=wanted.pictures)

@@ -8,7 +8,7 @@ from pathlib import Path
 
 from pydantic import ValidationError
 
-from inspect_cli.commands.delivery import Wanted, deliver, export, handed_readings
+from inspect_cli.commands.delivery import Wanted, deliver, export, handed_readings, report_folder
 from inspect_cli.commands.evaluating import evaluated_points
 from inspect_cli.commands.pictures import pictured
 from inspect_cli.commands.runs import LOG_NAME, SORTIES, log_of, write_model, write_readings
@@ -71,8 +71,7 @@ def report_survey(
         if log is None:
             break
         result = evaluate(log)
-        own = folder / sortie.folder
-        own.mkdir(parents=True, exist_ok=True)
+        own = report_folder(folder / sortie.folder)
         write_model(own / "metrics.json", result)
         write_readings(own, result)
         document = report_document(log, result, log.plan(), evaluated_points(result.points, log))

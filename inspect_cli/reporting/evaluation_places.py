@@ -30,7 +30,7 @@ def gradient_blocks(found: GradientFindings) -> list[Block]:
         [
             say(
                 "Negative minima of the potential and how it rises around them (RILEM TC 154-EMC: "
-                "100 mV within 1 m of a minimum is active corrosion)."
+                "100 mV within 1 m of a minimum indicates active corrosion)."
             ),
             _listed(len(found.steepest), found.minima),
         ]

@@ -27,6 +27,19 @@ COVER = say(
     "place may not show; very dry concrete, coated bars and sealed surfaces may give no reading "
     "at all."
 )
+CONTINUITY = say(
+    "A potential tells of the steel that the voltmeter is connected to: the bars have to be "
+    "connected with each other. Stray currents, cathodic protection and zinc or prestressing steel "
+    "change potentials without telling of corrosion."
+)
+CALIBRATION = say(
+    "Fixed class boundaries alone decide nothing: populations and gradients stand beside them, and "
+    "openings at some of the places show what is so."
+)
+RESISTIVITY = say(
+    "Resistivities are as measured; their classes are for Portland cement concrete at 20 °C. Cold "
+    "or dry concrete has a higher resistivity, warm or wet concrete a lower one."
+)
 VALIDITY = say(
     "A reading is valid only after sufficient force for sufficient time and a stable "
     "potential. Invalid points are shown as such, never as values, and enter no statistics."
@@ -95,8 +108,14 @@ def reading_caveats(evaluated: Sequence[Evaluated], *, probed: bool = True) -> l
         evaluated: the surfaces; what is said of electrode and temperature follows from them.
         probed: whether a probe's rule decided which readings are valid, as in a flight.
     """
-    validity = [VALIDITY] if probed else []
-    return [SPECIALIST, CONCRETE, COVER, *temperature_caveats(evaluated), *validity, AT_ITS_TIME]
+    known = any(e.assessed.summary.resistivity_known for e in evaluated)
+    return [
+        *(SPECIALIST, CALIBRATION, CONCRETE, COVER, CONTINUITY),
+        *temperature_caveats(evaluated),
+        *([RESISTIVITY] if known else []),
+        *([VALIDITY] if probed else []),
+        AT_ITS_TIME,
+    ]
 
 
 def evaluation_method() -> Facts:

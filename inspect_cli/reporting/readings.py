@@ -32,11 +32,15 @@ ASSUMED: dict[str, Text] = {
     "potential_unit": say("the potentials are in millivolts"),
     "electrode": say("they were read against copper/copper sulphate (CSE)"),
     "spacing_m": say("the grid's spacing is 4 inches (0.1016 m)"),
+    "orientation": say("the surface lies level: u along x and v along y"),
     "resistivity_unit": say("the resistivities are in kΩ·cm"),
     "coordinate_unit": say("the coordinates are in metres"),
     "seen_from_m": say("the surface was read from the side of the coordinates' origin"),
 }
 """What a setting that nobody stated comes to."""
+SPACING_ASSUMED = say(
+    "Nobody stated the spacing of the grid: areas and gradients rest on an assumed 0.1016 m."
+)
 
 
 def readings_document(
@@ -45,7 +49,7 @@ def readings_document(
     """What the report of a file of readings says, in no language yet."""
     shown = [ReadPoint(point, None) for point in points]
     sections = [
-        Section("summary", say("Summary"), _summary(shown, evaluated)),
+        Section("summary", say("Summary"), _summary(result, shown, evaluated)),
         Section("survey", say("Corrosion survey"), evaluation_blocks([evaluated], shown, None)),
         Section("method", say("Method"), _method(result)),
         Section("provenance", say("Provenance"), _provenance(result)),
@@ -54,10 +58,13 @@ def readings_document(
     return Document(say("{title} – inspection report", title=title), _cover(result), sections)
 
 
-def _summary(points: Sequence[ReadPoint], evaluated: Evaluated) -> list[Block]:
+def _summary(
+    result: ReadingsResult, points: Sequence[ReadPoint], evaluated: Evaluated
+) -> list[Block]:
     read = evaluated.assessed.summary.valid
     caveats = [*reading_caveats([evaluated], probed=False), *few_readings(read)]
     return [
+        Notes([SPACING_ASSUMED] if "spacing_m" in result.assumed else [], "warnings"),
         *finding(findings(points, [evaluated])),
         Boxes(reading_boxes(points)),
         Heading(say("What this report does not say")),

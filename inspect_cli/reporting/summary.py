@@ -147,8 +147,8 @@ def _possible(labels: Sequence[str], *, known: bool) -> Iterator[Text]:
     else:
         yield count(
             len(labels),
-            "No active corrosion; it is possible at point {labels}.",
-            "No active corrosion; it is possible at points {labels}.",
+            "No reading indicates active corrosion; it cannot be ruled out at point {labels}.",
+            "No reading indicates active corrosion; it cannot be ruled out at points {labels}.",
             labels=where,
         )
 

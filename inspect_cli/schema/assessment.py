@@ -86,7 +86,7 @@ class Minimum(Strict):
 
 
 class GradientFindings(Strict):
-    """RILEM TC 154-EMC: a rise of 100 mV within 1 m of a negative minimum is active corrosion."""
+    """RILEM TC 154-EMC: a rise of 100 mV within 1 m of a minimum indicates active corrosion."""
 
     minima: int
     active: int

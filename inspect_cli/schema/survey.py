@@ -77,6 +77,9 @@ class SurveySettings(Strict):
     """(u, v) of a grid's reading at the bottom left; added to the coordinates of a list."""
     coordinate_unit: LengthUnit = "m"
     """Of a list's coordinates where the header has no unit."""
+    orientation: Literal["level", "upright"] = "level"
+    """How a grid or a list without z lies in space: ``level`` like a deck, u along x and v along
+    y, or ``upright`` like a wall, u along x and v along z."""
     seen_from_m: Triple | None = None
     """A place before the surface, in the coordinates of a list with x, y and z."""
     georeference: Georeference | None = None

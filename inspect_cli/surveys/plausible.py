@@ -21,6 +21,8 @@ Where = Callable[[int], Location]
 MOST_MV = 2000.0
 POSITIVE_MV = 150.0
 """Chloride-free and dry concrete reads up to about +200 mV, but not everywhere."""
+MOST_POSITIVE_MV = 250.0
+"""More than any steel in concrete reads: a sign is missing, or was turned that was right."""
 VOLTS_BELOW, MILLIVOLTS_ABOVE = 2.0, 20.0
 MOST_DECIMALS = 6
 
@@ -55,7 +57,8 @@ def potentials_mv(
         hint = f"correct the cell, or state potential_unit: {other} if that is what was read"
         raise InputError(Problem(what, where(k), hint if unit.key == "V" else "correct the cell"))
     if settings.sign == "inverted":
-        return -values
+        hint = "leave sign: inverted out if the file has the minus signs already"
+        return _not_too_positive(-values, where, hint)
     positive = (values[valid] > 0).all() and values[valid].max() > POSITIVE_MV
     if positive and "sign" not in settings.model_fields_set:
         what = f"all potentials are positive, up to {values[valid].max():g} mV"
@@ -64,6 +67,19 @@ def potentials_mv(
             "or sign: as_read if they are positive indeed"
         )
         raise InputError(Problem(what, where(int(np.flatnonzero(valid)[0])), hint))
+    if "sign" in settings.model_fields_set:
+        return values
+    hint = "correct the sign, or state sign: as_read if it is so"
+    return _not_too_positive(values, where, hint)
+
+
+def _not_too_positive(values: Vector, where: Where, hint: str) -> Vector:
+    """The potentials, mV, if each can be one of steel in concrete."""
+    odd = np.flatnonzero(values > MOST_POSITIVE_MV)
+    if len(odd):
+        k = int(odd[0])
+        what = f"{values[k]:+g} mV is more positive than steel in concrete reads"
+        raise InputError(Problem(what, where(k), hint))
     return values
 
 

@@ -70,10 +70,13 @@ class Survey:
 
     @property
     def points_W(self) -> Points:
-        """(n, 3), m: where the readings are; without z, on a wall in the plane y = 0, facing −y."""
+        """(n, 3), m: where the readings are; without z, as ``settings.orientation`` says."""
         if self.p_W is not None:
             return self.p_W
-        return np.column_stack([self.uv_m[:, 0], np.zeros(len(self.uv_m)), self.uv_m[:, 1]])
+        u, v = self.uv_m.T
+        none = np.zeros(len(u))
+        upright = self.settings.orientation == "upright"
+        return np.column_stack([u, none, v] if upright else [u, v, none])
 
 
 def read_survey(path: Path, settings: SurveySettings | None = None) -> Survey:
@@ -105,7 +108,7 @@ def _survey_of_grid(path: Path, grid: Grid, source: SourceFile, settings: Survey
     du, dv = settings.spacing_m
     j, i = np.meshgrid(np.arange(columns), np.arange(rows))
     uv_m = np.column_stack([j.ravel() * du, (rows - 1 - i.ravel()) * dv]) + settings.origin_m
-    matters = ["potential_unit", "electrode", "spacing_m"]
+    matters = ["potential_unit", "electrode", "spacing_m", "orientation"]
     matters += ["resistivity_unit"] if len(files) > 1 else []
     return Survey(
         files=files,
@@ -144,7 +147,7 @@ def _survey_of_list(
     p_W, uv_m, plane, notes = _places(rows, settings)
     matters = ["potential_unit", "electrode", "coordinate_unit"]
     matters += ["resistivity_unit"] if resistivity is not None else []
-    matters += ["seen_from_m"] if plane is not None else []
+    matters += ["orientation"] if plane is None else ["seen_from_m"]
     stated |= stated_too | ({"electrode"} if rows.electrode else set())
     if rows.ignored:
         notes += (f"Columns that were not read: {', '.join(rows.ignored)}.",)

@@ -254,7 +254,7 @@ def test_points_active_by_potential_alone_are_named(fly: Fly, report: Report) ->
     flight.rows(Reading)["potential"] = -0.25
     text = report(flight).page.text
     assert "By potential alone" not in text
-    assert "No active corrosion; it is possible at points 1, 2, 3" in text
+    assert "No reading indicates active corrosion; it cannot be ruled out at points 1, 2, 3" in text
 
 
 def test_a_bumped_body_and_motion_at_the_end_are_warned_of(fly: Fly, report: Report) -> None:

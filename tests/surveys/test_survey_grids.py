@@ -89,10 +89,15 @@ def test_places_run_right_and_up_from_the_bottom_left(tmp_path: Path) -> None:
     expected = [(10, 20.25), (10.5, 20.25), (11, 20.25), (10, 20), (10.5, 20), (11, 20)]
     np.testing.assert_allclose(survey.uv_m, expected, rtol=0, atol=1e-12)
     assert survey.p_W is None
-    np.testing.assert_allclose(survey.points_W[1], (10.5, 0.0, 20.25))
-    assert survey.assumed == ("potential_unit", "electrode")
+    np.testing.assert_allclose(survey.points_W[1], (10.5, 20.25, 0.0))
+    assert survey.assumed == ("potential_unit", "electrode", "orientation")
+    wall = read(
+        tmp_path, LABELLED, spacing_m=[0.5, 0.25], origin_m=(10.0, 20.0), orientation="upright"
+    )
+    np.testing.assert_allclose(wall.points_W[1], (10.5, 0.0, 20.25))
+    assert wall.assumed == ("potential_unit", "electrode")
     plain = read(tmp_path, LABELLED)
-    assert plain.assumed == ("potential_unit", "electrode", "spacing_m")
+    assert plain.assumed == ("potential_unit", "electrode", "spacing_m", "orientation")
     np.testing.assert_allclose(plain.uv_m[0], (0.0, 0.1016))
 
 
@@ -265,3 +270,24 @@ def test_measured_slabs_are_read_as_numpy_reads_them(shared_data: Path, name: st
     # 28 and 8 spacings of 4 in between the first and the last reading.
     np.testing.assert_allclose(survey.uv_m[0], (0.0, 28 * 0.1016))
     np.testing.assert_allclose(survey.uv_m[-1], (8 * 0.1016, 0.0))
+
+
+@pytest.mark.parametrize(
+    ("text", "options", "address"),
+    [
+        ("-300,350\n250,-420\n", {}, "cell B1"),
+        ("-200,-350\n-200,-300\n", {"sign": "inverted"}, "cell B1"),
+    ],
+)
+def test_a_sign_that_is_missing_or_turned_is_refused_by_its_cell(
+    tmp_path: Path, text: str, options: dict[str, str], address: str
+) -> None:
+    with pytest.raises(InputError) as refused:
+        read(tmp_path, text, **options)
+    assert address in str(refused.value)
+    assert "more positive than steel" in str(refused.value)
+
+
+def test_a_positive_reading_may_be_stated(tmp_path: Path) -> None:
+    survey = read(tmp_path, "-300,350\n250,-420\n", sign="as_read")
+    assert survey.potential_mv[1] == 350.0

@@ -60,7 +60,7 @@ def test_everything_that_a_list_may_hold(tmp_path: Path) -> None:
     np.testing.assert_allclose(survey.resistivity_ohm_m, [189, np.nan, 200])
     np.testing.assert_array_equal(survey.temperature_c, [12.5, np.nan, 13])
     assert survey.why == ("", "", "the file says 'n/a'")
-    assert survey.assumed == ("electrode",)
+    assert survey.assumed == ("electrode", "orientation")
     assert survey.warnings == ("Columns that were not read: Bemerkung.",)
     assert survey.settings.resistivity_unit == "kohm_cm"
 
@@ -73,10 +73,13 @@ def test_what_no_heading_says_is_assumed_or_set(tmp_path: Path) -> None:
     assert survey.uv_m.tolist() == [[1, 0.5], [2, 0.5]]
     assert survey.potential_mv.tolist() == [-350, -340]
     assert survey.resistivity_ohm_m.tolist() == [20, 30]
-    assert survey.assumed == ("electrode",)
+    assert survey.assumed == ("electrode", "orientation")
     plain = read(tmp_path, "x,y,potential,rho\n1,5,-350,20\n", origin_m=(1.0, 2.0))
     assert plain.uv_m.tolist() == [[2.0, 7.0]]
-    assert plain.assumed == ("potential_unit", "electrode", "coordinate_unit", "resistivity_unit")
+    assert plain.assumed == (
+        *("potential_unit", "electrode", "coordinate_unit"),
+        *("resistivity_unit", "orientation"),
+    )
 
 
 def test_the_electrode_in_a_heading(tmp_path: Path) -> None:

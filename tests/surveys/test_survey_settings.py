@@ -14,6 +14,7 @@ FULL = """\
 potential_unit: V
 electrode: Ag/AgCl 1 M KCl
 sign: inverted
+orientation: upright
 temperature_c: 14.5
 layout: grid
 spacing_m: [0.5, 0.25]
