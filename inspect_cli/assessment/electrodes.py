@@ -150,34 +150,5 @@ def to_standard(potential_v: ArrayLike, basis: Basis) -> Vector:
     return np.asarray(potential_v, dtype=np.float64) + 1e-3 * shift_mv
 
 
-def standardised(
-    potential_v: ArrayLike, electrode: str, temperature_c: ArrayLike
-) -> tuple[Vector, Basis]:
-    """Potentials (n,), V, each corrected by its own temperature (n,), °C, NaN not known.
-
-    The basis holds the mean temperature and the mean correction of the readings that have one.
-    """
-    potential = np.asarray(potential_v, dtype=np.float64)
-    temperature = np.asarray(temperature_c, dtype=np.float64)
-    known = np.isfinite(temperature)
-    different, which = np.unique(temperature[known], return_inverse=True)
-    if len(different) < 2:
-        basis = basis_of(electrode, float(different[0]) if len(different) else None)
-        each = np.where(known, basis.temperature_correction_mv, 0.0)
-    else:
-        bases = [basis_of(electrode, float(t)) for t in different]
-        each = np.zeros(len(potential))
-        each[known] = np.array([b.temperature_correction_mv for b in bases])[which]
-        low, high = different[0], different[-1]
-        basis = bases[0].model_copy(
-            update={
-                "temperature_c": float(np.mean(temperature[known])),
-                "temperature_correction_mv": float(np.mean(each[known])),
-                "temperature_why": f"each reading by its own, {low:g} to {high:g} °C",
-            }
-        )
-    return potential + 1e-3 * (basis.conversion_mv + each), basis
-
-
 def _squeezed(name: str) -> str:
     return "".join(name.split()).casefold()

@@ -138,7 +138,9 @@ def budget_of(merged: Merged, basis: Basis, *, electrodes: int = 1) -> Budget:
 
 
 def temperature_sd_v(basis: Basis) -> float:
-    """Standard uncertainty by the temperature, V."""
+    """Standard uncertainty by the temperature, V; zero where each reading carries its own."""
+    if basis.own_temperatures_c is not None:
+        return 0.0
     half_band_c = 0.5 * (NEGLIGIBLE_C[1] - NEGLIGIBLE_C[0])
     if basis.temperature_c is None:
         bound_c = half_band_c

@@ -22,10 +22,10 @@ from inspect_cli.assessment.classes import (
     name_of,
     verdict_codes,
 )
-from inspect_cli.assessment.electrodes import standardised
 from inspect_cli.assessment.kriging import KrigedMap
 from inspect_cli.assessment.mixture import resolution_of
 from inspect_cli.assessment.readings import Readings
+from inspect_cli.assessment.temperatures import standardised
 from inspect_cli.commands.delivery import Export, Wanted, deliver, export, report_folder
 from inspect_cli.commands.evaluating import mapped
 from inspect_cli.commands.runs import READINGS_NAME, write_model
@@ -102,13 +102,14 @@ def standard_readings(survey: Survey) -> tuple[Readings, Basis]:
         stated = survey.settings.temperature_c
         temperature_c = np.full(len(survey.labels), np.nan if stated is None else stated)
     electrode = survey.settings.electrode
-    potential_v, basis = standardised(1e-3 * survey.potential_mv, electrode, temperature_c)
+    read_v = 1e-3 * survey.potential_mv
+    potential_v, basis, by_temperature_v = standardised(read_v, electrode, temperature_c)
     readings = Readings(
         labels=np.array(survey.labels, dtype=np.str_),
         uv_m=survey.uv_m,
         potential_v=potential_v,
         resistivity_ohm_m=survey.resistivity_ohm_m,
-        measurement_sd_v=_rounding_sd_v(survey.potential_mv),
+        measurement_sd_v=np.hypot(_rounding_sd_v(survey.potential_mv), by_temperature_v),
     )
     return readings, basis
 

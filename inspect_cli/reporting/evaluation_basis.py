@@ -33,6 +33,11 @@ def basis_facts(summary: SurfaceAssessment) -> Facts:
     temperature: Text = say("not known")
     if basis.temperature_c is not None:
         temperature = say("{celsius} °C", celsius=significant(basis.temperature_c, 4))
+    if basis.own_temperatures_c and basis.own_corrections_mv:
+        temperature = _span(basis.own_temperatures_c, "°C", 1)
+        correction = say(
+            "each reading by its own: {span}", span=_span(basis.own_corrections_mv, "mV", 1)
+        )
     conversion: Text = say("none: it is the standard's own electrode")
     if basis.conversion_mv != 0.0:
         conversion = say("{mv} mV added", mv=number(basis.conversion_mv, 1))
@@ -75,7 +80,17 @@ def _caveat(basis: Basis) -> Text:
         )
     else:
         told.append(say("Potentials are against copper/copper sulphate (CSE)."))
-    if basis.temperature_correction_mv != 0.0:
+    if basis.own_temperatures_c and basis.own_corrections_mv:
+        told.append(
+            say(
+                "Each was corrected by its own temperature ({temperatures}), which added "
+                "{corrections}; readings whose temperature is not known: {n}, not corrected.",
+                temperatures=_span(basis.own_temperatures_c, "°C", 1),
+                corrections=_span(basis.own_corrections_mv, "mV", 1),
+                n=number(basis.without_temperature, 0),
+            )
+        )
+    elif basis.temperature_correction_mv != 0.0:
         told.append(
             say(
                 "They were corrected by {mv} mV from {celsius} °C to 22.2 °C (ASTM C876).",
@@ -87,6 +102,11 @@ def _caveat(basis: Basis) -> Text:
         why = recorded(basis.temperature_why)
         told.append(say("They are not corrected for temperature: {why}.", why=why))
     return sentences(told)
+
+
+def _span(ends: tuple[float, float], unit: str, digits: int) -> Text:
+    low, high = (number(end, digits) for end in ends)
+    return say("{low} to {high} {unit}", low=low, high=high, unit=unit)
 
 
 def uncertainty_blocks(summary: SurfaceAssessment) -> list[Block]:

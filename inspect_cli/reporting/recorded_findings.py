@@ -35,7 +35,6 @@ FINDINGS: tuple[Said, ...] = (
     say("the temperature is not known; it is taken to be within 22.2 ± 5.5 °C"),
     say("within 22.2 ± 5.5 °C its effect is negligible (ASTM C876)"),
     say("0.9 mV/°C is the coefficient of a CSE, not of {name}: nothing is corrected"),
-    say("each reading by its own, {low} to {high} °C"),
     # Why there is no map.
     say("there are no valid readings"),
     say("all {n} valid readings are at one place"),

@@ -22,6 +22,13 @@ class Basis(Strict):
     """What was added to have it at 22.2 °C."""
     temperature_why: str = ""
     """Why nothing was."""
+    own_temperatures_c: tuple[float, float] | None = None
+    """Least and greatest temperature where each reading has its own; what stands above then says
+    nothing of temperature."""
+    own_corrections_mv: tuple[float, float] | None = None
+    """Least and greatest amount that was added for it."""
+    without_temperature: int = 0
+    """Readings whose temperature is not known beside others whose is."""
     merged_readings: int = 0
     """Readings that were made one with another at the same place."""
 
