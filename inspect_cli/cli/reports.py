@@ -54,7 +54,7 @@ def report(
     spacing_m: Annotated[
         str | None,
         typer.Option(
-            metavar="D|DU,DV",
+            metavar="D|DUxDV",
             help="Of a grid: between columns, between rows.",
             rich_help_panel=READINGS,
         ),
@@ -180,9 +180,9 @@ def _report_readings(
 
 def _spacing(text: str) -> float | tuple[float, ...]:
     try:
-        numbers = tuple(float(part) for part in text.split(","))
+        numbers = tuple(float(part) for part in text.split("x"))
     except ValueError as error:
-        hint = "write --spacing-m 0.5, or --spacing-m 0.5,0.25"
+        hint = "write --spacing-m 0.5, or --spacing-m 0.5x0.25, with decimal points"
         raise InputError(f"--spacing-m: '{text}' is no spacing", hint=hint) from error
     return numbers[0] if len(numbers) == 1 else numbers
 

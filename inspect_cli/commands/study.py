@@ -16,6 +16,7 @@ from typing import Protocol
 
 import numpy as np
 
+from inspect_cli.commands.delivery import report_folder
 from inspect_cli.commands.fly import FlyOutcome, fly_loaded
 from inspect_cli.commands.plan import plan_loaded, vehicle_of
 from inspect_cli.commands.runs import log_of, write_model
@@ -107,6 +108,7 @@ def study(
     seed = loaded.mission.seeds[0] if seed is None else seed
     folder = (out or loaded.root / "reports" / loaded.mission.name) / f"study-{name}"
     plans = [_planned(variant) for variant in varied]
+    report_folder(folder)
     sampler = chosen.sampler(loaded, seed) if chosen.sampler else None
     sampled = [sampler(*pair) if sampler else None for pair in zip(varied, plans, strict=True)]
     ends: list[FlightEnd | None] = [None] * len(varied)

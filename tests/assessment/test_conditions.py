@@ -16,7 +16,9 @@ from inspect_cli.assessment.conditions import CONDITIONS, compatible, rilem_cond
         (-899.0, set()),
         (-600.0, {"moist, chloride-contaminated"}),
         (-400.0, {"moist, chloride-contaminated", "moist, carbonated"}),
+        (-401.0, {"moist, chloride-contaminated"}),
         (-399.0, {"moist, carbonated"}),
+        (-201.0, {"moist, carbonated"}),
         (-200.0, {"moist, chloride-free", "moist, carbonated"}),
         (
             0.0,

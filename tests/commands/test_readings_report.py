@@ -154,6 +154,7 @@ def test_a_sidecar_says_what_the_file_does_not(small: Path, tmp_path: Path) -> N
         (["--electrode", "Ag/AgCl"], "electrode"),
         (["--unit", "X"], "choices: mV, V"),
         (["--spacing-m", "wide"], "--spacing-m"),
+        (["--spacing-m", "1,5"], "decimal points"),
         (["--spacing-m", "-1"], "spacing_m"),
         (["--export", "dxf"], "dxf"),
         (["--temperature-c", "55"], "55"),
@@ -200,3 +201,18 @@ def test_options_of_readings_are_refused_without_readings(
     assert "--readings" in capsys.readouterr().err
     assert cli.run(["report"]) == 2
     assert "nothing to report" in capsys.readouterr().err
+
+
+def test_two_spacings(small: Path, tmp_path: Path) -> None:
+    result = reported(tmp_path / "out", "--readings", str(small), "--spacing-m", "0.5x0.25")
+    assert surface_of(result)["area_m2"] == pytest.approx(9 * 0.5 * 0.25)
+
+
+@pytest.mark.parametrize("beneath", ["", "deeper/still"])
+def test_a_file_is_no_folder(
+    small: Path, tmp_path: Path, beneath: str, capsys: pytest.CaptureFixture[str]
+) -> None:
+    (tmp_path / "file").write_text("", encoding="utf-8")
+    out = tmp_path / "file" / beneath
+    assert cli.run(["report", "--readings", str(small), "--out", str(out)]) == 2
+    assert "cannot be a folder" in capsys.readouterr().err
