@@ -284,5 +284,5 @@ def test_points_stand_in_the_order_of_their_labels(fly: Fly, report: Report) -> 
     flight.plan = flight.plan.model_copy(update={"targets": tuple(targets)})
     flight.rows(Reading)["potential"] = -0.25
     assert (
-        "possible at points 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11 and 12." in report(flight).page.text
+        "ruled out at points 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11 and 12." in report(flight).page.text
     )
