@@ -5,6 +5,7 @@ from __future__ import annotations
 import csv
 import json
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -15,14 +16,15 @@ SLABS = ("slab1", "slab2", "slab3", "slab4")
 SMALL = "row,A,B,C\n1,-120,-180,-420\n2,-200,-350,-351\n3,-150,n/a,-199\n"
 
 
-def reported(folder: Path, *arguments: str) -> dict[str, object]:
+def reported(folder: Path, *arguments: str) -> dict[str, Any]:
     assert cli.run(["report", "--out", str(folder), *arguments]) == 0
-    result: dict[str, object] = json.loads((folder / "metrics.json").read_text(encoding="utf-8"))
+    result: dict[str, Any] = json.loads((folder / "metrics.json").read_text(encoding="utf-8"))
     return result
 
 
-def surface_of(result: dict[str, object]) -> dict[str, object]:
-    (surface,) = result["assessment"]  # type: ignore[misc, attr-defined]
+def surface_of(result: dict[str, Any]) -> dict[str, Any]:
+    surface: dict[str, Any]
+    (surface,) = result["assessment"]
     return surface
 
 
@@ -77,7 +79,7 @@ def test_resistivity_joined_gives_the_table_of_combined_verdicts(
     }
     assert crossed["active", "high"] == np.sum(active)
     assert sum(crossed.values()) == 261
-    assert [file["name"] for file in result["files"]] == [  # type: ignore[attr-defined]
+    assert [file["name"] for file in result["files"]] == [
         "slab1.csv",
         "resistivity_S1AC.txt",
     ]
