@@ -149,6 +149,8 @@ class Cover:
     title: Text
     description: Text
     facts: Sequence[tuple[Text, Text]]
+    signed: Sequence[Text] = ()
+    """What is filled in by hand under each of some lines, on paper alone."""
 
 
 @dataclass(frozen=True)

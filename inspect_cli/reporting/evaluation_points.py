@@ -21,6 +21,9 @@ from inspect_cli.reporting.text import (
     together,
 )
 
+CERTAIN = 0.999
+"""Of a class, a probability that no more is said about."""
+
 Filled = tuple[Column, Sequence[Text]]
 """A column and its cells."""
 
@@ -139,8 +142,10 @@ def _judged(points: Sequence[ReadPoint], sure: Mapping[int, Sureness]) -> list[F
 def _certainty(sure: Sureness | None) -> Text:
     if sure is None:
         return NOTHING
-    # What rounds to 100 % and is not, is shown as what it surely exceeds.
-    percent = min(100.0 * sure.own_class, 99.9) if sure.own_class < 1.0 else 100.0
+    if sure.own_class > CERTAIN:
+        # Nothing measured is wholly certain, though its probability may round to 1.
+        return together("> ", number(100.0 * CERTAIN, 1), " %")
+    percent = 100.0 * sure.own_class
     digits = 1 if percent > 99.0 else 0
     return together(number(percent, digits), " %", " ?" if sure.doubtful else "")
 

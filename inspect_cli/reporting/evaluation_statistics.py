@@ -128,7 +128,8 @@ def mixture_blocks(mixture: MixtureFindings) -> list[Block]:
     ]
     caption = say(
         "Two normal populations of potentials by maximum likelihood, ± standard errors. Active is "
-        "the more negative one by their order alone; 95 % of a population lie beyond its limit."
+        "the more negative one by their order alone. 95 % of the active population lie below its "
+        "limit, 95 % of the passive one above its own."
     )
     return [
         Table(caption, columns, rows),

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 
 from inspect_cli.reporting.content import Facts
 from inspect_cli.reporting.evaluated import Evaluated
@@ -50,20 +50,30 @@ AT_ITS_TIME = say(
 )
 
 
+def areas_told(evaluated: Sequence[Evaluated]) -> list[Text]:
+    """How much of each surface is active."""
+    return _by_surface(evaluated, _areas)
+
+
 def told_of(evaluated: Sequence[Evaluated]) -> list[Text]:
-    """What the evaluation found, surface by surface."""
-    several = len(evaluated) > 1
-    return [
-        sentence
-        for e in evaluated
-        if e.assessed.summary.valid
-        for sentence in _told(e.assessed.summary, several=several)
-    ]
+    """What gradients and populations of each surface tell."""
+    return _by_surface(evaluated, _gradient_and_populations)
 
 
-def _told(summary: SurfaceAssessment, *, several: bool) -> Iterator[Text]:
-    if several:
-        yield say("Surface “{surface}”:", surface=summary.surface)
+def _by_surface(
+    evaluated: Sequence[Evaluated], told: Callable[[SurfaceAssessment], Iterable[Text]]
+) -> list[Text]:
+    """The sentences of each surface that has a valid reading, under its name if there are more."""
+    found: list[Text] = []
+    for e in evaluated:
+        own = list(told(e.assessed.summary)) if e.assessed.summary.valid else []
+        if own and len(evaluated) > 1:
+            found.append(say("Surface “{surface}”:", surface=e.surface))
+        found += own
+    return found
+
+
+def _areas(summary: SurfaceAssessment) -> Iterator[Text]:
     if summary.area_m2:
         active = next(share for share in summary.astm if share.name == "active")
         combined = next(share for share in summary.verdicts if share.name == "active")
@@ -75,8 +85,10 @@ def _told(summary: SurfaceAssessment, *, several: bool) -> Iterator[Text]:
             share=percent((active.area_m2 or 0.0) / summary.area_m2),
             combined=area(combined.area_m2),
         )
-    yield judged(summary.gradient)
-    yield _populations(summary.mixture)
+
+
+def _gradient_and_populations(summary: SurfaceAssessment) -> tuple[Text, Text]:
+    return judged(summary.gradient), _populations(summary.mixture)
 
 
 def _populations(mixture: MixtureFindings) -> Text:

@@ -22,7 +22,7 @@ from inspect_cli.reporting.evaluation import evaluation_blocks
 from inspect_cli.reporting.evaluation_told import few_readings, reading_caveats
 from inspect_cli.reporting.points import ReadPoint
 from inspect_cli.reporting.recorded import recorded
-from inspect_cli.reporting.summary import finding, findings, reading_boxes
+from inspect_cli.reporting.summary import SIGNED, finding, findings, reading_boxes
 from inspect_cli.reporting.text import Text, code, number, say, together
 from inspect_cli.schema.readings import ReadingsResult
 from inspect_cli.schema.result import PointResult
@@ -81,7 +81,7 @@ def _cover(result: ReadingsResult) -> Cover:
         (say("Reference electrode"), settings.electrode),
         (say("Files"), ", ".join(file.name for file in result.files)),
     ]
-    return Cover(say("Inspection report · half-cell potential"), result.survey, "", facts)
+    return Cover(say("Inspection report · half-cell potential"), result.survey, "", facts, SIGNED)
 
 
 def _people(settings: SurveySettings) -> list[tuple[Text, str | None]]:

@@ -33,6 +33,7 @@ from inspect_cli.reporting.provenance import provenance
 from inspect_cli.reporting.recorded import recorded
 from inspect_cli.reporting.rows import rows_of
 from inspect_cli.reporting.summary import (
+    SIGNED,
     caveats,
     finding,
     findings,
@@ -96,7 +97,8 @@ def cover(log: RunLog, result: Result, works: Works, title: str) -> Cover:
         (say("Kind"), say("simulated flight") if is_simulated(log) else say("flight")),
         (say("Status"), Badge(recorded(result.status), result.status)),
     ]
-    return Cover(kicker(works), title, mission.description, facts)
+    signed = () if is_simulated(log) else SIGNED
+    return Cover(kicker(works), title, mission.description, facts, signed)
 
 
 def summary(

@@ -7,7 +7,12 @@ from collections.abc import Iterable, Iterator, Sequence
 from inspect_cli.log.reader import RunLog
 from inspect_cli.reporting.content import Block, Box, Boxes, Facts, Notes, Paragraph
 from inspect_cli.reporting.evaluated import Evaluated
-from inspect_cli.reporting.evaluation_told import few_readings, reading_caveats, told_of
+from inspect_cli.reporting.evaluation_told import (
+    areas_told,
+    few_readings,
+    reading_caveats,
+    told_of,
+)
 from inspect_cli.reporting.naming import named
 from inspect_cli.reporting.points import ReadPoint
 from inspect_cli.reporting.published import SOURCE, published_of
@@ -78,10 +83,18 @@ def findings(points: Sequence[ReadPoint], evaluated: Sequence[Evaluated] = ()) -
     """The finding of the readings in sentences: how much is valid, what corrodes, and how much."""
     if not points:
         return []
-    return [_validity(points), *_corrosion(points), *told_of(evaluated)]
+    return [
+        _validity(points),
+        *areas_told(evaluated),
+        *_corrosion(points),
+        *told_of(evaluated),
+    ]
 
 
 def _validity(points: Sequence[ReadPoint]) -> Text:
+    if len(points) == 1:
+        valid = points[0].point.valid
+        return say("The one reading is valid.") if valid else say("The one reading is invalid.")
     return count(
         sum(p.point.valid for p in points),
         "{n} of {total} readings is valid.",
@@ -172,12 +185,18 @@ def reading_boxes(points: Sequence[ReadPoint]) -> list[Box]:
     """The key figures of readings."""
     read = [p.point for p in points if p.point.potential_mv is not None]
     potentials = [point.potential_mv for point in read if point.potential_mv is not None]
+    by_potential = sum(p.astm_class == "active" for p in read)
     active = sum(p.corrosion == "active" for p in read)
     return [
         Box(say("valid readings"), f"{sum(p.point.valid for p in points)} / {len(points)}"),
-        Box(say("active by the combined rule"), number(active, 0)),
+        Box(say("active by potential (ASTM C876)"), number(by_potential, 0)),
+        Box(say("active by potential and resistivity"), number(active, 0)),
         Box(say("most negative"), number(min(potentials, default=None), 0), "mV CSE"),
     ]
+
+
+SIGNED = (say("Place and date"), say("Name and signature of who answers for the evaluation"))
+"""What a report of a real structure is handed over with."""
 
 
 def is_simulated(log: RunLog) -> bool:

@@ -156,6 +156,7 @@ class _Paper:
                 "title": self._runs(cover.title),
                 "description": self._runs(cover.description),
                 "facts": [[self._runs(a), self._runs(b)] for a, b in cover.facts],
+                "signed": [self._runs(line) for line in cover.signed],
             },
             "sections": [
                 {

@@ -50,7 +50,7 @@ def test_a_completed_flight_is_told_in_order(fly: Fly, report: Report) -> None:
         "completed",
         "9 of 9 readings are valid.",
         "Active corrosion is indicated at points 2 and 3.",
-        "active by the combined rule",
+        "active by potential and resistivity",
         "✓ pass",
         "it presses with 1.8 N",
         "✗ fail",
@@ -235,7 +235,7 @@ def test_a_real_flight_claims_no_simulation(fly: Fly, report: Report) -> None:
 
 def test_one_point_and_other_vehicles(fly: Fly, report: Report) -> None:
     page = report(fly(1, 1, n_rotors=4, n_joints=0)).page
-    assert "1 of 1 readings is valid." in page.text
+    assert "The one reading is valid." in page.text
     panels = [k for k in page.figures["actuators"]["layout"] if k.startswith("yaxis")]
     assert len(panels) == 2  # thrust and saturation; a vehicle without joints has no third
     page = report(fly(1, 2, n_rotors=8, n_joints=11)).page
