@@ -53,7 +53,7 @@ def doctor(as_json: Json = False) -> int:
 
 
 def schema(
-    kind: Annotated[Literal["mission", "platform"], typer.Argument(help="Which file.")],
+    kind: Annotated[Literal["mission", "platform", "survey"], typer.Argument(help="Which file.")],
     as_json: Annotated[bool, typer.Option("--json", help="The same: a schema is JSON.")] = False,
 ) -> int:
     """Print the JSON Schema of a file, for editors."""

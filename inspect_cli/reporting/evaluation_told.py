@@ -142,7 +142,8 @@ def evaluation_method() -> Facts:
                 say("Areas"),
                 say(
                     "a point stands for what is nearer to it than to any other, on a grid for one "
-                    "field of it; an invalid point keeps its area"
+                    "field of it, so the area reaches half a spacing beyond the outer points; an "
+                    "invalid point keeps its area"
                 ),
             ),
             (

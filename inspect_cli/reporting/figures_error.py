@@ -55,7 +55,7 @@ def error_figure(k: int, evaluated: Evaluated) -> Figure | None:
     high = frame.height_px if frame.slope > TALL else SMALLER * frame.height_px
     return Figure(
         f"error-{k + 1}",
-        error_caption(evaluated),
+        error_caption(evaluated, kriged),
         say(
             "Map of the standard error of the interpolated potentials, up to {most} mV.",
             most=number(float(np.nanmax(error_mv)), 0),

@@ -135,11 +135,14 @@ def _of_the_signs(evaluated: Evaluated, most: int) -> Iterator[Text]:
         yield say("Of each, the {n} steepest are drawn.", n=number(most, 0))
 
 
-def error_caption(evaluated: Evaluated) -> Text:
+def error_caption(evaluated: Evaluated, kriged: KrigedMap) -> Text:
     """What the map of standard errors says."""
+    error_mv = 1e3 * kriged.standard_error_v
     return say(
-        "Standard error of the interpolated potential on surface “{surface}”, mV: between the "
-        "readings and at the edge the map is less sure than at them. A further reading would "
-        "differ from the map by this and by its own measurement error.",
+        "Standard error of the interpolated potential on surface “{surface}”, {least} to {most} "
+        "mV: between the readings and at the edge the map is less sure than at them. A further "
+        "reading would differ from the map by this and by its own measurement error.",
         surface=evaluated.surface,
+        least=significant(float(np.nanmin(error_mv)), 2),
+        most=significant(float(np.nanmax(error_mv)), 2),
     )

@@ -7,34 +7,45 @@ an address; a test compares them with the models.
 from __future__ import annotations
 
 import json
+from collections.abc import Callable
 from pathlib import Path
-from typing import Any, Literal
+from typing import Any, Literal, TypeAlias
 
+from pydantic import BaseModel
 from pydantic.json_schema import models_json_schema
 
 from inspect_cli.schema.mission import MissionFile
+from inspect_cli.schema.survey import SurveySettings
 from inspect_cli.schema.units import split_key
 from inspect_cli.schema.vehicle import PLATFORM_KINDS
 
 REFERENCE = "#/$defs/"
 DIALECT = "https://json-schema.org/draft/2020-12/schema"
 
-Kind = Literal["mission", "platform"]
-TITLES: dict[Kind, str] = {"mission": "Mission of inspect", "platform": "Platform of inspect"}
+Defined: TypeAlias = tuple[dict[str, Any], dict[str, Any]]
+"""Definitions by name, and the schema of the whole that refers to them."""
+
+Kind = Literal["mission", "platform", "survey"]
+TITLES: dict[Kind, str] = {
+    "mission": "Mission of inspect",
+    "platform": "Platform of inspect",
+    "survey": "Settings of a survey for inspect",
+}
 
 
 def json_schema(kind: Kind) -> dict[str, Any]:
-    """The schema of a mission or a platform file, computed from the models.
+    """The schema of a file, computed from the models.
 
-    A file that extends another may leave out what it inherits, at any depth.
+    A mission or platform that extends another may leave out what it inherits, at any depth.
     """
-    definitions, whole = _mission() if kind == "mission" else _platform()
+    definitions, whole = DEFINED[kind]()
     for definition in definitions.values():
         _title_with_units(definition)
+    head = {"$schema": DIALECT, "title": TITLES[kind]}
+    if kind == "survey":  # extends nothing
+        return head | {"$defs": definitions} | whole
     partial = {f"Partial{name}": _partial(body) for name, body in definitions.items()}
-    return {
-        "$schema": DIALECT,
-        "title": TITLES[kind],
+    return head | {
         "$defs": definitions | partial,
         "if": {"required": ["extends"]},
         "then": {"allOf": [_partial(whole), {"required": ["name"]}]},
@@ -52,16 +63,31 @@ def committed_file(kind: Kind) -> Path:
     return Path(__file__).with_name(f"{kind}.schema.json")
 
 
-def _mission() -> tuple[dict[str, Any], dict[str, Any]]:
-    body = MissionFile.model_json_schema(by_alias=True)
-    definitions = body.pop("$defs")
-    return definitions | {"Mission": body}, {"$ref": REFERENCE + "Mission"}
+def _mission() -> Defined:
+    return _model("Mission", MissionFile)
 
 
-def _platform() -> tuple[dict[str, Any], dict[str, Any]]:
+def _survey() -> Defined:
+    return _model("Survey", SurveySettings)
+
+
+def _model(name: str, model: type[BaseModel]) -> Defined:
+    body = model.model_json_schema(by_alias=True)
+    definitions = body.pop("$defs", {})
+    return definitions | {name: body}, {"$ref": REFERENCE + name}
+
+
+def _platform() -> Defined:
     kinds = list(PLATFORM_KINDS.values())
     references, body = models_json_schema([(kind, "validation") for kind in kinds], by_alias=True)
     return body["$defs"], {"oneOf": [references[kind, "validation"] for kind in kinds]}
+
+
+DEFINED: dict[Kind, Callable[[], Defined]] = {
+    "mission": _mission,
+    "platform": _platform,
+    "survey": _survey,
+}
 
 
 def _partial(schema: Any) -> Any:

@@ -7,7 +7,7 @@ given is told as assumed by whoever reads the file (``model_fields_set`` knows).
 from __future__ import annotations
 
 import datetime
-from typing import Annotated, Literal
+from typing import Annotated, Literal, TypeAlias
 
 from pydantic import AfterValidator, BeforeValidator, Field
 
@@ -33,6 +33,10 @@ def _pair(value: object) -> object:
     if isinstance(value, tuple | list) and len(value) == 2:
         return tuple(value)
     raise ValueError("give one number, or [between columns, between rows]")
+
+
+Spacings: TypeAlias = Positive | tuple[Positive, Positive]
+"""What a file may say."""
 
 
 def _day(value: str) -> str:
@@ -68,7 +72,9 @@ class SurveySettings(Strict):
     """Of the concrete and the electrode; a column of temperatures comes before it."""
     layout: Literal["grid", "list"] | None = None
     """Without it, the file's header tells."""
-    spacing_m: Annotated[tuple[Positive, Positive], BeforeValidator(_pair)] = (
+    spacing_m: Annotated[
+        tuple[Positive, Positive], BeforeValidator(_pair, json_schema_input_type=Spacings)
+    ] = (
         FOUR_INCHES_M,
         FOUR_INCHES_M,
     )
