@@ -15,6 +15,8 @@ MAX_WRITTEN_VALUES = 80
 MAP_WIDTH_PX = 1000.0
 MAP_FRAME_PX = 44 + 110
 LOWEST_PX, HIGHEST_PX, TALLEST_PX = 160.0, 560.0, 840.0
+FLATTEST = 0.36
+"""Of a map with words: its shorter side over the longer one, at least."""
 TALL = 1.3
 """Height over width from which two maps stand side by side."""
 
@@ -64,6 +66,9 @@ def frame_of(uv_m: Points) -> Frame:
     low, high = uv_m.min(axis=0), uv_m.max(axis=0)
     share = 0.12 if len(uv_m) <= MAX_WRITTEN_VALUES else 0.05
     room = share * max(float(np.max(high - low)), 0.1)
+    if len(uv_m) <= MAX_WRITTEN_VALUES:
+        # A row of readings has room above and below it for what is written there, on a phone too.
+        room = np.maximum(room, 0.5 * (FLATTEST * (np.max(high - low) + 2.0 * room) - (high - low)))
     (u_low, v_low), (u_high, v_high) = (low - room).tolist(), (high + room).tolist()
     return Frame((u_low, u_high), (v_low, v_high))
 
