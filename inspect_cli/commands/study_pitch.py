@@ -216,9 +216,9 @@ PITCH = Study(
     title="Pitch of the grid: cost against detection",
     explained=say(
         "The pitch p of the grid is varied over the region that the mission covers. Points, "
-        "sorties, time and energy are planned. What is found is sampled: the grid is laid onto the region "
-        "with 20 offsets, stratified over one pitch along u and v, and the readings are simulated "
-        "from the specimen by the probe's own model with its noise. They are taken where the tool "
+        "sorties, time and energy are planned. What is found is sampled: the grid is laid onto the "
+        "region with 20 offsets, stratified over one pitch along u and v, and the readings are "
+        "simulated from the specimen by the probe's own model with its noise. They are taken where the tool "
         "truly is: at its point plus a normal error along u and along v, with a standard deviation "
         "of {external} mm if poses come from an external tracker and {onboard} mm if from odometry "
         "on board. Every place of the region stands for its nearest reading, and the verdict, by "

@@ -184,6 +184,35 @@ def test_the_first_pitch_that_misses_is_named(mission: Path) -> None:
     assert wide.value(SITES) == pytest.approx(hit, abs=4.0 * np.sqrt(hit * (1.0 - hit) / 20))
 
 
+def test_verdicts_are_on_the_standards_scale(mission: Path) -> None:
+    """At 40 °C a CSE reads 16 mV less, which is corrected; a SCE's readings are not.
+
+    The truth of −355 mV as a CSE at 40 °C reads it is −339 mV at the standard's temperature, by
+    either electrode (a SCE's own coefficient is neglected): uncertain. The specimen itself is
+    judged as it stands, so that all of the disc is missed. Without the correction none is.
+    """
+    depth = "depth_v: 0.38, radius_m: 0.25"
+    rewritten(mission, depth, "depth_v: 0.235, radius_m: 5.0")
+    missed = {}
+    for celsius in (22.2, 40.0):
+        text = mission.read_text()
+        warm = text.replace("  - name: wall\n", f"  - name: wall\n    temperature_c: {celsius}\n")
+        warm = warm.replace("        potential_v:", f"        temperature_c: {celsius}\n        potential_v:")
+        for electrode in ("CSE", "SCE"):
+            platform = mission.parents[1] / "platforms" / "tilt_rotor_hexarotor.yaml"
+            own = platform.read_text()
+            platform.write_text(electrode_set(own, electrode))
+            mission.write_text(warm)
+            found = study("pitch", mission, asked={"pitch": "0.3"}).result
+            missed[celsius, electrode] = found.variants[0].value(DETECTED)
+            platform.write_text(own)
+        mission.write_text(text)
+    assert missed[22.2, "CSE"] > 0.95
+    assert missed[22.2, "SCE"] > 0.95
+    assert missed[40.0, "CSE"] < 0.05
+    assert missed[40.0, "SCE"] < 0.05
+
+
 @pytest.mark.parametrize(
     ("rows", "columns", "pitch_m", "found"),
     [(3, 4, 0.15, (6, 8)), (3, 4, 0.2, (4, 6)), (1, 9, 0.1, (1, 27)), (5, 1, 0.6, (2, 1))],
