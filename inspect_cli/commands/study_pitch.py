@@ -216,16 +216,17 @@ PITCH = Study(
     title="Pitch of the grid: cost against detection",
     explained=say(
         "The pitch p of the grid is varied over the region that the mission covers. Points, "
-        "sorties, time and energy are planned. What is found is sampled: the grid is laid onto the "
-        "region with 20 offsets, stratified over one pitch along u and v, and the readings are "
-        "simulated from the specimen by the probe's own model with its noise. They are taken where the tool "
-        "truly is: at its point plus a normal error along u and along v, with a standard deviation "
-        "of {external} mm if poses come from an external tracker and {onboard} mm if from odometry "
-        "on board. Every place of the region stands for its nearest reading, and the verdict, by "
-        "potential and resistivity together, is held against what is truly so. Numbers with ± are "
-        "means over the offsets with their standard errors: they tell of where the grid lies on "
-        "this surface, not of other surfaces. A site is a connected truly active region, and it is "
-        "found when a point within it was judged active; one beside it finds area of it only.",
+        "sorties, time and energy are planned. What is found is sampled: the grid is laid onto "
+        "the region with 20 offsets, stratified over one pitch along u and v, and the readings "
+        "are simulated from the specimen by the probe's own model with its noise. They are "
+        "taken where the tool truly is: at its point plus a normal error along u and along v, "
+        "with a standard deviation of {external} mm if poses come from an external tracker and "
+        "{onboard} mm if from odometry on board. Every place of the region stands for its "
+        "nearest reading, and the verdict, by potential and resistivity together, is held "
+        "against what is truly so. Numbers with ± are means over the offsets with their "
+        "standard errors: they tell of where the grid lies on this surface, not of other "
+        "surfaces. A site is a connected truly active region, and it is found when a point "
+        "within it was judged active; one beside it finds area of it only.",
         external=number(1e3 * POSITION_SD_M["external"], 0),
         onboard=number(1e3 * POSITION_SD_M["onboard"], 0),
     ),

@@ -179,7 +179,7 @@ def test_places_that_touch_by_a_corner_are_one_site() -> None:
 
     uv = grid(8, 4, 0.25)
     for gap_m, sites in ((0.0, 1), (STEP_M, 2)):
-        raster = raster_of(lambda u, v, gap=gap_m: squares(u - gap * (u > gap), v))
+        raster = raster_of(lambda u, v, gap=gap_m: squares(u, v) & ~((u > 0.0) & (u < gap)))
         surface = score_surface(judged_truly(uv, squares), cells_around(uv, 0.25, raster), raster)
         assert surface.sites_total == sites
 
