@@ -40,6 +40,9 @@ def test_few_pairs_cannot_tell_a_nugget() -> None:
     of = Variogram("spherical", 1e-3, 1e-3, 0.9)
     assert fit(made(of), 0.0).nugget_v2 == pytest.approx(1e-3, rel=0.1)
     assert fit(made(of, pairs=20.0), 1e-6).nugget_v2 == 1e-6
+    # Each pair counts from both its ends: 30 of them are 60.
+    assert fit(made(of, pairs=59.0), 1e-6).nugget_v2 == 1e-6
+    assert fit(made(of, pairs=60.0), 1e-6).nugget_v2 == pytest.approx(1e-3, rel=0.1)
 
 
 def test_near_lags_and_many_pairs_weigh_most() -> None:

@@ -14,7 +14,7 @@ from inspect_cli.errors import LogError
 from inspect_cli.log.names import SPECIMEN
 from inspect_cli.log.rasters import encoded
 from inspect_cli.metrics.catalogue_scoring import SCORES, metrics_of
-from inspect_cli.metrics.cells import cells_around, nearest_to
+from inspect_cli.metrics.cells import cells_around, in_squares, nearest_to
 from inspect_cli.metrics.evaluate import evaluate
 from inspect_cli.metrics.flight import NotMeasured
 from inspect_cli.metrics.survey import joined_result, scorer
@@ -212,6 +212,19 @@ def test_too_resistive_is_what_the_rule_cannot_call_active() -> None:
         assert found["scoring.too_resistive_share"].value == pytest.approx(share, rel=0.01)
         # The sound concrete has 220 Ω·m, and it is not counted.
         assert surface.combined.region_m2 == pytest.approx(2.0)
+
+
+def test_squares_reach_half_a_pitch_and_the_smallest_pitch_counts() -> None:
+    raster = raster_of(disc(0.0, 0.0, 0.1))
+    alone = np.array([[0.0, 0.0]])
+    places = np.array([[0.1, 0.0], [0.101, 0.0], [-0.1, 0.1], [0.0, -0.101]])
+    assert in_squares(places, alone, 0.2, raster).tolist() == [True, False, True, False]
+    # Two points 0.15 m apart, each with a square of 0.2 m: together 0.35 m by 0.2 m, not more.
+    cells = cells_around(np.array([[0.0, 0.0], [0.15, 0.0]]), 0.2, raster)
+    assert len(cells.owner) * cells.area_m2 == pytest.approx(0.07, rel=0.02)
+    points = [point(0, (0.0, 0.0), "active")]
+    tasks = [gridded(1, 1, 0.25), gridded(1, 1, 0.1)]
+    assert score(points, [raster], mission(*tasks)).confusion().region_m2 == pytest.approx(0.01)
 
 
 def test_added_points_share_the_area_of_their_neighbours() -> None:
