@@ -215,6 +215,35 @@ def test_the_first_pitch_that_misses_is_named(mission: Path) -> None:
     assert wide.value(SITES) == pytest.approx(hit, abs=4.0 * np.sqrt(hit * (1.0 - hit) / 20))
 
 
+def test_a_solved_field_is_studied_and_what_its_rule_misses_is_told(
+    root: Path, tmp_path: Path
+) -> None:
+    """In 150 Ω·m no site is too resistive; in 200 Ω·m the outer parts of all are.
+
+    200 Ω·m at 20 °C are 185.3 Ω·m at 22.2 °C. Alone, a site with 185.3 (1 − 0.7 g) Ω·m passes
+    100 Ω·m at g = 0.6576, at 0.9156 of its radius, so that 1 − 0.9156² = 16.2 % of it lie beyond;
+    neighbours' chlorides take a little of that away.
+    """
+    shutil.copytree(root / "platforms", tmp_path / "platforms")
+    (tmp_path / "missions").mkdir()
+    for name in ("wall_pitch_study.yaml", "wall_pitch_macro_cell.yaml"):
+        shutil.copy(root / "missions" / name, tmp_path / "missions" / name)
+    file = tmp_path / "missions" / "wall_pitch_macro_cell.yaml"
+    result = study("pitch", file).result
+    missed = [variant.value(MISSED) for variant in result.sweep(result.quantities[0])]
+    assert missed == sorted(missed)
+    assert result.thresholds[0].first_below == 0.25
+    assert result.common["study.too_resistive_area_m2"].value == 0.0
+    assert not any("Ω·m" in finding for finding in result.findings)
+    rewritten(file, "resistivity_ohm_m: 150.0", "resistivity_ohm_m: 200.0")
+    result = study("pitch", file, asked={"pitch": "0.5"}).result
+    common = {name: metric.value for name, metric in result.common.items()}
+    share = common["study.too_resistive_area_m2"] / common["study.active_area_m2"]
+    assert 0.14 < share < 0.165
+    assert f"({100.0 * share:.1f} %) of the truly active area" in result.findings[-1]
+    assert "only one beside it can be judged active" in result.findings[-1]
+
+
 @pytest.mark.parametrize("electrode", ["CSE", "SCE"])
 def test_verdicts_are_on_the_standards_scale(mission: Path, electrode: str) -> None:
     """In concrete of 40 °C a CSE reads 16.02 mV less; what it reads is −120 mV − 380 mV g.
