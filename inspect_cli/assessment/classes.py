@@ -135,6 +135,15 @@ def is_resistivity(resistivity_ohm_m: ArrayLike) -> NDArray[np.bool_]:
     return np.asarray(np.isfinite(rho) & (rho > 0.0))
 
 
+def sustains_corrosion(resistivity_ohm_m: ArrayLike) -> NDArray[np.bool_]:
+    """Where ``COMBINED_RULE`` can say active: a known ρ, Ω·m, of at most 100 Ω·m.
+
+    Elsewhere it says possible at the most, however negative the potential.
+    """
+    rho = np.asarray(resistivity_ohm_m, dtype=np.float64)
+    return np.asarray(is_resistivity(rho) & (rho <= SUSTAINS_CORROSION_OHM_M))
+
+
 def verdict_codes(potential_v: ArrayLike, resistivity_ohm_m: ArrayLike) -> Codes:
     """``COMBINED_RULE``, as numbers of ``VERDICTS``.
 
@@ -143,9 +152,7 @@ def verdict_codes(potential_v: ArrayLike, resistivity_ohm_m: ArrayLike) -> Codes
         resistivity_ohm_m: Ω·m, of the same shape; NaN where it is not known.
     """
     astm = astm_codes(potential_v)
-    rho = np.asarray(resistivity_ohm_m, dtype=np.float64)
-    sustained = is_resistivity(rho) & (rho <= SUSTAINS_CORROSION_OHM_M)
-    is_active = (astm == ASTM_CLASSES.index("active")) & sustained
+    is_active = (astm == ASTM_CLASSES.index("active")) & sustains_corrosion(resistivity_ohm_m)
     steps = (astm != ASTM_CLASSES.index("passive")).astype(np.int8) + is_active
     return _known(steps, astm != NO_CLASS)
 

@@ -4,7 +4,11 @@ The region is the same for every pitch: the squares around the points that the m
 plans. A grid of the pitch p lies on it with each of 20 offsets, stratified over the square p × p
 and the same shares of it for every pitch. Every place of the region stands for its nearest
 reading. A reading is taken where the tool truly is, its point plus a normal error along u and
-along v, and its values are those of the probe's own model in firm contact.
+along v, and its values are those of the probe's own model in firm contact, its noise included.
+
+Standard errors are s/√20 over the offsets, as if they were independent. Strata can only lower the
+true ones, so the stated ones are rather too large. They are of where the grid happens to lie on
+this one specimen and say nothing of other walls; all pitches share the specimen and the shares.
 
 The deviations of the error are stated: with them the largest errors of the reference flights,
 2 to 4 mm with an external tracker and 12 to 19 mm with odometry on board, are those of a dozen
@@ -27,6 +31,7 @@ from inspect_cli.metrics.cells import Cells, cells_around, in_squares, nearest_t
 from inspect_cli.metrics.truth_scoring import Judged, score_surface
 from inspect_cli.planning.lattice import lattice
 from inspect_cli.reporting.figures_pitch import (
+    ACTIVE,
     DETECTED,
     DURATION,
     ENERGY,
@@ -35,6 +40,7 @@ from inspect_cli.reporting.figures_pitch import (
     POINTS,
     SITES,
     SORTIES,
+    TOO_RESISTIVE,
 )
 from inspect_cli.schema.coverage import CoveragePlan
 from inspect_cli.schema.loading import Loaded
@@ -71,11 +77,16 @@ class PitchSampler:
         self._planned = planned
         self._raster: TrueRaster = beneath.raster(FINER)
         self._region: Cells = cells_around(planned, work.pitch_m, self._raster)
-        if self._scored(np.empty((0, 2)), ()).sites_total == 0:
+        unread = self._scored(np.empty((0, 2)), ())
+        if unread.sites_total == 0:
             what = f"nothing is truly active beneath the points on '{work.on}'"
             hint = "there is nothing to detect: give the specimen an active site within the region"
             raise InputError(Problem(what, Location(str(loaded.mission_file)), hint))
         self.trials = STRATA[0] * STRATA[1]
+        self.common = {
+            ACTIVE: Metric(value=unread.combined.active_m2, unit="m²"),
+            TOO_RESISTIVE: Metric(value=unread.too_resistive_m2, unit="m²"),
+        }
 
     def __call__(self, variant: Variant, plan: Plan | CoveragePlan) -> Sampled:
         """What the plan costs, and the means over the offsets of what is found."""

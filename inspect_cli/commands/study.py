@@ -129,6 +129,7 @@ def study(
             _told(chosen, columns, *each) for each in zip(varied, ends, sampled, strict=True)
         ),
         trials=sampler.trials if sampler else 0,
+        common=dict(sampler.common) if sampler else {},
     )
     return _written(chosen, result, folder, language)
 

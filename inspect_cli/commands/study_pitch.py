@@ -14,11 +14,13 @@ from itertools import pairwise
 
 import numpy as np
 
-from inspect_cli.commands.pitch_sampling import PitchSampler
+from inspect_cli.assessment.classes import SUSTAINS_CORROSION_OHM_M
+from inspect_cli.commands.pitch_sampling import POSITION_SD_M, PitchSampler
 from inspect_cli.commands.plan import plan_loaded, vehicle_of
 from inspect_cli.commands.sweeps import Factor, Study, revalidated, shortest
 from inspect_cli.errors import InputError, Location, Problem
 from inspect_cli.reporting.figures_pitch import (
+    ACTIVE,
     DETECTED,
     DURATION,
     ENERGY,
@@ -28,11 +30,19 @@ from inspect_cli.reporting.figures_pitch import (
     POINTS,
     SITES,
     SORTIES,
+    TOO_RESISTIVE,
     cost_figure,
     pitch_figure,
 )
-from inspect_cli.reporting.pitch_findings import OF_AREA, OF_SITES, UNSTEADY, Thresholds, written
-from inspect_cli.reporting.text import say
+from inspect_cli.reporting.pitch_findings import (
+    OF_AREA,
+    OF_SITES,
+    TOO_RESISTIVE_BY_RULE,
+    UNSTEADY,
+    Thresholds,
+    written,
+)
+from inspect_cli.reporting.text import number, say
 from inspect_cli.schema.coverage import CoveragePlan
 from inspect_cli.schema.loading import Loaded
 from inspect_cli.schema.plan import Plan
@@ -132,8 +142,9 @@ def _concluded(result: StudyResult) -> StudyResult:
     said = {DETECTED: OF_AREA, SITES: OF_SITES}
     thresholds = tuple(_threshold(result, pitches, metric) for metric in said)
     words = tuple(_in_words(pitches, threshold, said[threshold.metric]) for threshold in thresholds)
-    slack = tuple(_unsteady(pitches))
-    return result.model_copy(update={"thresholds": thresholds, "findings": words + slack})
+    doubts = (doubt for t in thresholds for doubt in _unsure(pitches, t, said[t.metric]))
+    more = (*doubts, *_unsteady(pitches), *_too_resistive(result))
+    return result.model_copy(update={"thresholds": thresholds, "findings": words + more})
 
 
 def _threshold(result: StudyResult, pitches: tuple[StudyVariant, ...], metric: str) -> Threshold:
@@ -144,8 +155,7 @@ def _threshold(result: StudyResult, pitches: tuple[StudyVariant, ...], metric: s
 
 def _in_words(pitches: tuple[StudyVariant, ...], threshold: Threshold, said: Thresholds) -> str:
     at = [variant.values[threshold.quantity] for variant in pitches]
-    first = threshold.first_below
-    k = len(at) - 1 if first is None else at.index(first)
+    first, k = threshold.first_below, _decisive(pitches, threshold)
     share, error = _percent(pitches[k], threshold.metric)
     level, pitch = f"{100.0 * threshold.level:g}", shortest(at[k])
     here = {"level": level, "pitch": pitch, "share": share, "error": error}
@@ -156,9 +166,40 @@ def _in_words(pitches: tuple[StudyVariant, ...], threshold: Threshold, said: Thr
     return written(said.first, **here, before=before, before_error=before_error, finer=finer)
 
 
+def _decisive(pitches: tuple[StudyVariant, ...], threshold: Threshold) -> int:
+    """Which pitch is the first below the level; the widest where none is."""
+    at = [variant.values[threshold.quantity] for variant in pitches]
+    return len(at) - 1 if threshold.first_below is None else at.index(threshold.first_below)
+
+
+def _unsure(
+    pitches: tuple[StudyVariant, ...], threshold: Threshold, said: Thresholds
+) -> Iterator[str]:
+    """The pitches on either side of the level that chance may have put there."""
+    k = _decisive(pitches, threshold)
+    for variant in pitches[max(k - 1, 0) : k + 1]:
+        error = variant.standard_errors.get(threshold.metric, 0.0)
+        if abs((variant.value(threshold.metric) or 0.0) - threshold.level) < 2.0 * error:
+            pitch = shortest(variant.values[threshold.quantity])
+            yield written(said.unsure, pitch=pitch, level=f"{100.0 * threshold.level:g}")
+
+
 def _percent(variant: StudyVariant, metric: str) -> tuple[str, str]:
     value, error = variant.value(metric) or 0.0, variant.standard_errors.get(metric, 0.0)
     return f"{100.0 * value:.1f}", f"{100.0 * error:.1f}"
+
+
+def _too_resistive(result: StudyResult) -> Iterator[str]:
+    """What the rule itself misses, whatever the pitch; nothing where it misses nothing."""
+    found, active = result.common.get(TOO_RESISTIVE), result.common.get(ACTIVE)
+    if found is None or not found.value or active is None or not active.value:
+        return
+    yield written(
+        TOO_RESISTIVE_BY_RULE,
+        area=f"{found.value:.3f}",
+        share=f"{100.0 * found.value / active.value:.1f}",
+        limit=f"{SUSTAINS_CORROSION_OHM_M:g}",
+    )
 
 
 def _unsteady(pitches: tuple[StudyVariant, ...]) -> Iterator[str]:
@@ -174,14 +215,20 @@ def _unsteady(pitches: tuple[StudyVariant, ...]) -> Iterator[str]:
 PITCH = Study(
     title="Pitch of the grid: cost against detection",
     explained=say(
-        "The pitch of the grid is varied over the region that the mission covers. Points, sorties, "
-        "time and energy are planned. What is found is sampled: the grid is laid onto the region "
-        "with 20 offsets, stratified over one pitch along u and v, and the readings are simulated "
-        "from the specimen by the probe's own model, where the tool truly is. Every place of the "
-        "region stands for its nearest reading, and the verdict, by potential and resistivity "
-        "together, is held against what is truly so. Numbers with ± are means over the offsets "
-        "with their standard errors. A site is a connected truly active region, and it is found "
-        "when a reading within it was judged active."
+        "The pitch p of the grid is varied over the region that the mission covers. Points, "
+        "sorties, time and energy are planned. What is found is sampled: the grid is laid onto "
+        "the region with 20 offsets, stratified over one pitch along u and v, and the readings "
+        "are simulated from the specimen by the probe's own model with its noise. They are "
+        "taken where the tool truly is: at its point plus a normal error along u and along v, "
+        "with a standard deviation of {external} mm if poses come from an external tracker and "
+        "{onboard} mm if from odometry on board. Every place of the region stands for its "
+        "nearest reading, and the verdict, by potential and resistivity together, is held "
+        "against what is truly so. Numbers with ± are means over the offsets with their "
+        "standard errors: they tell of where the grid lies on this surface, not of other "
+        "surfaces. A site is a connected truly active region, and it is found when a point "
+        "within it was judged active; one beside it finds area of it only.",
+        external=number(1e3 * POSITION_SD_M["external"], 0),
+        onboard=number(1e3 * POSITION_SD_M["onboard"], 0),
     ),
     factors=(Factor("pitch", "pitch", "p", "m", (0.1, 0.15, 0.25, 0.5), _pitch, _with_pitch),),
     columns=(

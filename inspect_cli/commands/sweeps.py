@@ -93,6 +93,11 @@ class Sampler(Protocol):
         """How many samples each mean is taken over."""
         ...
 
+    @property
+    def common(self) -> Mapping[str, Metric]:
+        """Numbers that every variant has alike, because they are of what is truly so."""
+        ...
+
     def __call__(self, variant: Variant, plan: Plan | CoveragePlan) -> Sampled:
         """The numbers of one variant."""
         ...

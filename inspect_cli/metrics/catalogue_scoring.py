@@ -34,6 +34,12 @@ def detected_share(scoring: Scoring) -> float:
     return 1.0 - confusion.missed_m2 / confusion.active_m2
 
 
+def too_resistive_share(scoring: Scoring) -> float:
+    """Of the truly active area; NaN where nothing is truly active."""
+    active_m2 = scoring.confusion().active_m2
+    return scoring.too_resistive_m2 / active_m2 if active_m2 > 0.0 else math.nan
+
+
 SCORES: dict[str, Score] = {
     "scoring.region_area_m2": Score(
         "m²",
@@ -57,6 +63,14 @@ SCORES: dict[str, Score] = {
     ),
     "scoring.detected_share": Score(
         "1", detected_share, "truly active area with the combined verdict active, as a share"
+    ),
+    "scoring.too_resistive_area_m2": Score(
+        "m²",
+        lambda scoring: scoring.too_resistive_m2,
+        "truly active area whose true resistivity is too high for the combined verdict active",
+    ),
+    "scoring.too_resistive_share": Score(
+        "1", too_resistive_share, "the same as a share of the truly active area"
     ),
     "scoring.potential_missed_area_m2": Score(
         "m²",

@@ -8,7 +8,11 @@ alone (ASTM C876, active below −350 mV) is held against the truth beside it.
 The measured region are the cells of the planned points, read or not; where the specimen knows
 nothing there is no truth to be held against. A site is a connected region of truly active area,
 diagonals included, that reaches into the measured region. It is found when a planned point within
-it was judged active.
+it was judged active. A reading beside a site finds area of it, not the site.
+
+The combined rule asks for a resistivity of at most 100 Ω·m. Steel that corrodes in concrete of
+more is missed by the rule itself: readings there are *possible* at the most, but for the error of
+the resistance. How much area that is says ``too_resistive_m2``.
 """
 
 from __future__ import annotations
@@ -20,6 +24,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.ndimage import label
 
+from inspect_cli.assessment.classes import sustains_corrosion
 from inspect_cli.log.rasters import TrueRaster
 from inspect_cli.metrics.cells import Cells, cells_around, spacing_of
 from inspect_cli.metrics.flight import Flight, NotMeasured
@@ -102,6 +107,8 @@ def score_surface(judged: Judged, cells: Cells, raster: TrueRaster) -> SurfaceSc
     rows, columns, on = raster.cells(cells.uv_m)
     on &= known[rows, columns]
     owner, cell_sites = cells.owner[on], sites[rows[on], columns[on]]
+    ohm_m = raster.resistivity_ohm_m[rows[on], columns[on]]
+    too_resistive = np.count_nonzero((cell_sites > 0) & ~sustains_corrosion(ohm_m))
     rows, columns, on = raster.cells(judged.uv_m)
     on &= known[rows, columns]
     point_sites = np.where(on, sites[rows, columns], -1)
@@ -119,6 +126,7 @@ def score_surface(judged: Judged, cells: Cells, raster: TrueRaster) -> SurfaceSc
         astm=made["astm"],
         sites_total=len(reached),
         sites_found=len(found),
+        too_resistive_m2=too_resistive * cells.area_m2,
     )
 
 

@@ -63,6 +63,7 @@ BY_METRIC: dict[str, Tolerance] = {
     "assessment.proposals_count": Tolerance(1.0, 0.0),
     "flight.energy_planned_over_flown": Tolerance(0.0, 0.01),
     "scoring.detected_share": Tolerance(0.0, 0.001),
+    "scoring.too_resistive_share": Tolerance(0.0, 0.001),
     "flight.saturated_share": Tolerance(0.002, 0.10),
     "pull.along_over_z": Tolerance(0.1, 0.15),
     "pull.along_over_attitude": Tolerance(0.1, 0.15),

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from inspect_cli.assessment.classes import SUSTAINS_CORROSION_OHM_M
 from inspect_cli.reporting.content import Block, Column, Heading, Paragraph, Table
 from inspect_cli.reporting.evaluation_classes import area, percent
 from inspect_cli.reporting.recorded import recorded
@@ -21,7 +22,16 @@ def scoring_blocks(scoring: Scoring | None) -> list[Block]:
     combined, astm = scoring.confusion("combined"), scoring.confusion("astm")
     return [
         Heading(say("Against the truth of the simulation")),
-        Paragraph(sentences([_missed(combined), _false(combined), _sites(scoring)])),
+        Paragraph(
+            sentences(
+                [
+                    _missed(combined),
+                    _too_resistive(scoring),
+                    _false(combined),
+                    _sites(scoring),
+                ]
+            )
+        ),
         _matrix(combined),
         _matrix(astm),
         Paragraph(
@@ -76,6 +86,18 @@ def _missed(confusion: Confusion) -> Text:
         active=area(confusion.active_m2),
         missed=area(confusion.missed_m2),
         share=percent(confusion.missed_m2 / confusion.active_m2),
+    )
+
+
+def _too_resistive(scoring: Scoring) -> Text:
+    if scoring.too_resistive_m2 == 0.0:
+        return ""
+    return say(
+        "Over {resistive} m² ({share}) of the truly active area the concrete truly has more than "
+        "{limit} Ω·m: there the rule itself says possible at the most, whatever the potential.",
+        resistive=area(scoring.too_resistive_m2),
+        share=percent(scoring.too_resistive_m2 / scoring.confusion().active_m2),
+        limit=number(SUSTAINS_CORROSION_OHM_M, 0),
     )
 
 

@@ -153,8 +153,8 @@ def evaluation_method() -> Facts:
             (
                 say("Gradient criterion"),
                 say(
-                    "RILEM TC 154-EMC: a minimum at least 20 mV deep is active where the potential "
-                    "rises by 100 mV within 1 m"
+                    "RILEM TC 154-EMC: a minimum is active where the potential rises by 100 mV "
+                    "within 1 m; that a minimum is at least 20 mV deep is the project's own choice"
                 ),
             ),
             (

@@ -12,6 +12,7 @@ POINTS, SORTIES = "study.points", "study.sorties"
 DETECTED, SITES = "study.detected_share", "study.sites_found_share"
 MISSED, FALSE = "study.missed_area_m2", "study.false_area_m2"
 ENERGY, DURATION = "study.energy_wh", "study.duration_s"
+ACTIVE, TOO_RESISTIVE = "study.active_area_m2", "study.too_resistive_area_m2"
 FLOWN = "scoring.detected_share"
 LEVEL = 0.95
 """The share below which a grid is said to miss."""
@@ -62,12 +63,10 @@ def cost_figure(study: StudyResult) -> Figure:
     traces: list[Json] = [
         {
             "type": "scatter",
-            "mode": "lines+markers" + ("+text" if metric == DETECTED else ""),
+            "mode": "lines+markers",
             "name": label,
             "x": [variant.value(ENERGY) for variant in variants],
             "y": [variant.value(metric) for variant in variants],
-            "text": names,
-            "textposition": "bottom center",
             "customdata": [
                 [variant.values[quantity.name], (variant.value(DURATION) or 0.0) / 60.0]
                 for variant in variants
@@ -99,8 +98,11 @@ def cost_figure(study: StudyResult) -> Figure:
         "xaxis": {
             "type": "log",
             "tickvals": ends,
-            "ticktext": [significant(end, 3) for end in ends],
-            "title": {"text": say("energy planned (Wh)")},
+            "ticktext": [
+                together(significant(end, 3), "<br>", name)
+                for end, name in zip(ends, names, strict=True)
+            ],
+            "title": {"text": say("energy planned (Wh) and pitch")},
         },
         "yaxis": {"rangemode": "tozero", "title": {"text": say("share found")}},
     }
@@ -108,7 +110,7 @@ def cost_figure(study: StudyResult) -> Figure:
         "pitch-cost",
         say(
             "Cost against detection: the shares that are found against the energy of all sorties "
-            "as planned, a point for each pitch."
+            "as planned, a point for each pitch, which stands beneath its energy."
         ),
         say("Shares of active area and of sites found against planned energy, by pitch."),
         traces,

@@ -17,6 +17,7 @@ class Thresholds:
     never: Said
     always: Said
     first: Said
+    unsure: Said
 
 
 OF_AREA = Thresholds(
@@ -31,6 +32,10 @@ OF_AREA = Thresholds(
     say(
         "Detection first drops below {level} % at a pitch of {pitch} m: {share} ± {error} % of "
         "the truly active area is judged active there, {before} ± {before_error} % at {finer} m."
+    ),
+    say(
+        "At {pitch} m the share of the area lies within two standard errors of {level} %: other "
+        "offsets of the grid could put it on the other side."
     ),
 )
 OF_SITES = Thresholds(
@@ -47,16 +52,26 @@ OF_SITES = Thresholds(
         "{share} ± {error} % of the sites are found there, "
         "{before} ± {before_error} % at {finer} m."
     ),
+    say(
+        "At {pitch} m the share of the sites lies within two standard errors of {level} %: other "
+        "offsets of the grid could put it on the other side."
+    ),
 )
 UNSTEADY = say(
     "The grid of {wider} m missed less area than that of {finer} m, by more than twice the "
     "standard error: active sites on this surface lie in step with the grid."
 )
+TOO_RESISTIVE_BY_RULE = say(
+    "Over {area} m² ({share} %) of the truly active area the concrete truly has more than {limit} "
+    "Ω·m. A reading there is possible at the most by the combined rule, at any pitch; only one "
+    "beside it can be judged active."
+)
 
 PITCH_FINDINGS: tuple[Said, ...] = (
-    *(OF_AREA.never, OF_AREA.always, OF_AREA.first),
-    *(OF_SITES.never, OF_SITES.always, OF_SITES.first),
+    *(OF_AREA.never, OF_AREA.always, OF_AREA.first, OF_AREA.unsure),
+    *(OF_SITES.never, OF_SITES.always, OF_SITES.first, OF_SITES.unsure),
     UNSTEADY,
+    TOO_RESISTIVE_BY_RULE,
 )
 
 

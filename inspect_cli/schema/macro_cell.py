@@ -75,7 +75,8 @@ class MoistSpot(Strict):
     resistivity_factor: Positive
     """Resistivity in the middle as a share of the sound concrete's."""
     oxygen_factor: Annotated[float, Field(ge=1e-4, le=10)] = 1.0
-    """Limiting cathodic current in the middle as a share; water in the pores holds oxygen back."""
+    """Limiting cathodic current in the middle as a share; water in the pores holds oxygen back. By
+    itself a spot that is smaller than the wall hardly moves the potential of passive steel."""
 
 
 class MacroCellSpecimen(Strict):

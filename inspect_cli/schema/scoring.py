@@ -72,6 +72,9 @@ class SurfaceScoring(Strict):
     """Connected regions of truly active area that reach into the measured region."""
     sites_found: Whole
     """Those with at least one point within that the combined rule judged active."""
+    too_resistive_m2: NonNegative
+    """Truly active area in the measured region over which the concrete is truly too resistive for
+    the combined rule to say active, whatever the potential."""
 
 
 class Scoring(Strict):
@@ -84,6 +87,11 @@ class Scoring(Strict):
         each = [getattr(surface, rule) for surface in self.surfaces]
         rows = zip(*(confusion.rows for confusion in each), strict=True)
         return Confusion(rule=rule, rows=tuple(_together(row) for row in rows))
+
+    @property
+    def too_resistive_m2(self) -> float:
+        """Of all surfaces."""
+        return sum(surface.too_resistive_m2 for surface in self.surfaces)
 
     @property
     def sites_total(self) -> int:

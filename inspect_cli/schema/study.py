@@ -83,6 +83,8 @@ class StudyResult(Strict):
     variants: Annotated[tuple[StudyVariant, ...], Field(min_length=1)]
     trials: Annotated[int, Field(ge=0)] = 0
     """Samples without a flight that each variant's means were taken over."""
+    common: dict[str, Metric] = {}
+    """Of every variant alike: what is truly so where they are sampled."""
     thresholds: tuple[Threshold, ...] = ()
     findings: tuple[str, ...] = ()
     """What came out, in sentences."""

@@ -18,7 +18,8 @@ nodes, bilinear between points of a grid four times as fine, NaN outside of the 
 
 A field also tells where the reinforcement is truly active. A macro cell knows its sites; neither an
 analytic field nor a measured grid knows the steel, so there the combined rule
-(``assessment.classes``) decides on the true values.
+(``assessment.classes``) decides on the true values, on the standard's scale: what a CSE reads in
+the concrete, corrected for its temperature as ASTM C876 asks.
 """
 
 from __future__ import annotations
@@ -33,7 +34,7 @@ import numpy as np
 from scipy.interpolate import RectBivariateSpline
 
 from inspect_cli.assessment.classes import combined_verdict
-from inspect_cli.assessment.electrodes import STANDARD_C
+from inspect_cli.assessment.electrodes import STANDARD_C, temperature_correction_v
 from inspect_cli.compiled import kernel
 from inspect_cli.errors import InputError
 from inspect_cli.schema.macro_cell import MacroCellSpecimen
@@ -197,7 +198,8 @@ def _says_active(field: SpecimenField, u: float, v: float) -> bool:
     potential, resistivity = field.at(u, v)
     if math.isnan(potential):
         return False
-    return combined_verdict(potential, resistivity) == "active"
+    standard = potential + temperature_correction_v(field.temperature_c)
+    return combined_verdict(standard, resistivity) == "active"
 
 
 def load_specimen(model: Specimen, root: Path, patch: Patch | None = None) -> SpecimenField:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from inspect_cli.assessment.conditions import CONDITIONS, compatible, rilem_conditions
+from inspect_cli.assessment.conditions import CONDITIONS, Condition, compatible, rilem_conditions
 
 
 @pytest.mark.parametrize(
@@ -36,6 +36,19 @@ from inspect_cli.assessment.conditions import CONDITIONS, compatible, rilem_cond
 )
 def test_conditions(mv: float, typical_of: set[str]) -> None:
     assert set(rilem_conditions(1e-3 * mv)) == typical_of
+
+
+@pytest.mark.parametrize("condition", CONDITIONS)
+def test_both_ends_of_a_range_belong_to_it(condition: Condition) -> None:
+    for end_mv, beyond_mv in ((condition.low_mv, -0.001), (condition.high_mv, 0.001)):
+        assert condition.name in rilem_conditions(1e-3 * end_mv)
+        assert condition.name not in rilem_conditions(1e-3 * (end_mv + beyond_mv))
+
+
+def test_the_ranges_are_those_of_the_recommendation() -> None:
+    """As published, mV CSE, in the order of the recommendation's table."""
+    ends = [(c.low_mv, c.high_mv) for c in CONDITIONS]
+    assert ends == [(-1000, -900), (-600, -400), (-200, 100), (-400, 100), (0, 200), (0, 200)]
 
 
 def test_arrays_agree_with_single_potentials() -> None:

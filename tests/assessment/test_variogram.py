@@ -40,6 +40,30 @@ def test_few_pairs_cannot_tell_a_nugget() -> None:
     of = Variogram("spherical", 1e-3, 1e-3, 0.9)
     assert fit(made(of), 0.0).nugget_v2 == pytest.approx(1e-3, rel=0.1)
     assert fit(made(of, pairs=20.0), 1e-6).nugget_v2 == 1e-6
+    # Each pair counts from both its ends: 30 of them are 60.
+    assert fit(made(of, pairs=59.0), 1e-6).nugget_v2 == 1e-6
+    assert fit(made(of, pairs=60.0), 1e-6).nugget_v2 == pytest.approx(1e-3, rel=0.1)
+
+
+def test_near_lags_and_many_pairs_weigh_most() -> None:
+    """No model fits two bins' step: the fit goes by N/h², against a search by brute force.
+
+    With scale and nugget fitted for each of the lengths that are tried, the weighted misfit of
+    what was found may be no more than that of any on a grid of 60 × 60 × 200.
+    """
+    rng = np.random.default_rng(4)
+    lag = np.linspace(0.1, 1.5, 15)
+    found = Semivariances(lag, 1e-3 * (1.0 + rng.random(15)), np.round(60 + 900 * rng.random(15)))
+    best = fit(found, 0.0)
+    weight = found.pairs / lag**2
+    misfit = weight @ (best.semivariance(lag) - found.semivariance_v2) ** 2
+    nugget, scale = np.meshgrid(np.linspace(0, 2e-3, 60), np.linspace(0, 2e-3, 60))
+    for length in np.geomspace(0.2, 6.0, 200):
+        x = np.minimum(lag / length, 1.0)
+        shape = 1.5 * x - 0.5 * x**3
+        trial = nugget[..., None] + scale[..., None] * shape
+        least = float((((trial - found.semivariance_v2) ** 2) @ weight).min())
+        assert misfit <= 1.01 * least
 
 
 def test_unlike_neighbours_are_all_nugget() -> None:

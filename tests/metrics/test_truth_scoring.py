@@ -14,7 +14,7 @@ from inspect_cli.errors import LogError
 from inspect_cli.log.names import SPECIMEN
 from inspect_cli.log.rasters import encoded
 from inspect_cli.metrics.catalogue_scoring import SCORES, metrics_of
-from inspect_cli.metrics.cells import cells_around, nearest_to
+from inspect_cli.metrics.cells import cells_around, in_squares, nearest_to
 from inspect_cli.metrics.evaluate import evaluate
 from inspect_cli.metrics.flight import NotMeasured
 from inspect_cli.metrics.survey import joined_result, scorer
@@ -168,6 +168,63 @@ def test_sites_are_counted_where_they_were_measured() -> None:
     raster = raster_of(truth)
     surface = score_surface(judged_truly(uv, truth), cells_around(uv, 0.25, raster), raster)
     assert (surface.sites_found, surface.sites_total) == (1, 2)
+
+
+def test_places_that_touch_by_a_corner_are_one_site() -> None:
+    """Two squares of 0.2 m with one corner in common, and one that stands 5 mm from it."""
+
+    def squares(u, v):
+        inside = (np.abs(u) < 0.2) & (np.abs(v) < 0.2)
+        return inside & (u * v > 0.0)
+
+    uv = grid(8, 4, 0.25)
+    for gap_m, sites in ((0.0, 1), (STEP_M, 2)):
+        raster = raster_of(lambda u, v, gap=gap_m: squares(u, v) & ~((u > 0.0) & (u < gap)))
+        surface = score_surface(judged_truly(uv, squares), cells_around(uv, 0.25, raster), raster)
+        assert surface.sites_total == sites
+
+
+@pytest.mark.parametrize("combined", ["active", "possible"])
+def test_a_site_is_found_by_the_combined_verdict(combined: str) -> None:
+    """However the potential alone is classed; the areas of both rules are told apart."""
+    truth = disc(0.0, 0.0, 0.1)
+    raster = raster_of(truth)
+    uv = grid(3, 1, 0.25)
+    other = "active" if combined == "possible" else "uncertain"
+    judged = Judged(uv, ("none", combined, "none"), ("passive", other, "passive"))
+    surface = score_surface(judged, cells_around(uv, 0.25, raster), raster)
+    assert (surface.sites_total, surface.sites_found) == (1, int(combined == "active"))
+    found = surface.combined if combined == "active" else surface.astm
+    assert found.missed_m2 == 0.0
+
+
+def test_too_resistive_is_what_the_rule_cannot_call_active() -> None:
+    """A disc of 0.3 m radius in 60 Ω·m but for u > 0: 100 Ω·m is not too much, 100.1 is."""
+    truth = disc(0.0, 0.0, 0.3)
+    uv = grid(8, 4, 0.25)
+    for ohm_m, share in ((100.0, 0.0), (100.1, 0.5), (np.nan, 0.5)):
+        raster = raster_of(truth)
+        raster.resistivity_ohm_m[:, raster.u_m > 0.0] = ohm_m
+        surface = score_surface(judged_truly(uv, truth), cells_around(uv, 0.25, raster), raster)
+        assert surface.too_resistive_m2 == pytest.approx(share * np.pi * 0.09, rel=0.01)
+        found = metrics_of(Scoring(surfaces=(surface,)))
+        assert found["scoring.too_resistive_area_m2"].value == surface.too_resistive_m2
+        assert found["scoring.too_resistive_share"].value == pytest.approx(share, rel=0.01)
+        # The sound concrete has 220 Ω·m, and it is not counted.
+        assert surface.combined.region_m2 == pytest.approx(2.0)
+
+
+def test_squares_reach_half_a_pitch_and_the_smallest_pitch_counts() -> None:
+    raster = raster_of(disc(0.0, 0.0, 0.1))
+    alone = np.array([[0.0, 0.0]])
+    places = np.array([[0.1, 0.0], [0.101, 0.0], [-0.1, 0.1], [0.0, -0.101]])
+    assert in_squares(places, alone, 0.2, raster).tolist() == [True, False, True, False]
+    # Two points 0.15 m apart, each with a square of 0.2 m: together 0.35 m by 0.2 m, not more.
+    cells = cells_around(np.array([[0.0, 0.0], [0.15, 0.0]]), 0.2, raster)
+    assert len(cells.owner) * cells.area_m2 == pytest.approx(0.07, rel=0.02)
+    points = [point(0, (0.0, 0.0), "active")]
+    tasks = [gridded(1, 1, 0.25), gridded(1, 1, 0.1)]
+    assert score(points, [raster], mission(*tasks)).confusion().region_m2 == pytest.approx(0.01)
 
 
 def test_added_points_share_the_area_of_their_neighbours() -> None:

@@ -359,6 +359,7 @@ def test_scoring_is_told_in_areas_and_points(deck: Evaluated) -> None:
                 astm=matrix("astm", ("passive", "uncertain", "active", "unread")),
                 sites_total=4,
                 sites_found=3,
+                too_resistive_m2=0.75,
             ),
         )
     )
@@ -370,6 +371,12 @@ def test_scoring_is_told_in_areas_and_points(deck: Evaluated) -> None:
     text = told(blocks)
     assert "Of 3.000 m² over steel that truly corrodes, 2.000 m² (66.7 %) were not called" in text
     assert "Of 4 corroding sites 3 were found" in text
+    assert (
+        "Over 0.7500 m² (25.0 %) of the truly active area the concrete truly has more than 100 Ω·m"
+        in text
+    )
+    whole = scoring.surfaces[0].model_copy(update={"too_resistive_m2": 0.0})
+    assert "100 Ω·m: there the rule" not in told(blocks_of(deck, Scoring(surfaces=(whole,))))
     assert "truth" not in page_of(blocks_of(deck))
 
 

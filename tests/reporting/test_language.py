@@ -23,7 +23,7 @@ from inspect_cli.metrics.flight import Flight as Logged
 from inspect_cli.metrics.points import point_results
 from inspect_cli.metrics.truth_scoring import NO_TRUTH
 from inspect_cli.records import InvalidReason
-from inspect_cli.reporting.figures_pitch import DETECTED, MISSED, SITES
+from inspect_cli.reporting.figures_pitch import ACTIVE, DETECTED, MISSED, SITES, TOO_RESISTIVE
 from inspect_cli.reporting.html import html
 from inspect_cli.reporting.language import LANGUAGES, language
 from inspect_cli.reporting.points import ReadPoint
@@ -147,12 +147,22 @@ def test_the_findings_of_the_pitch_study_are_known_again(
         quantities=(Quantity(name="pitch", symbol="p", unit="m", base=0.1),),
         columns=(),
         variants=tuple(variants),
+        common={
+            ACTIVE: Metric(value=0.3456, unit="m²"),
+            TOO_RESISTIVE: Metric(value=0.0864, unit="m²"),
+        },
     )
-    area, sites, unsteady = study.concluded(result).findings
+    area, sites, *more = study.concluded(result).findings
+    unsteady, by_rule = more[-2:]
     assert english in area
     assert english in sites
     assert "The grid of 0.25 m missed less area than that of 0.1 m" in unsteady
-    for finding in (area, sites, unsteady):
+    assert by_rule.startswith("Over 0.086 m² (25.0 %) of the truly active area")
+    assert "more than 100 Ω·m" in by_rule
+    # Both shares are the same: two sentences, or none, for each mean near the level.
+    near = [share for share in shares if abs(share - 0.95) < 2.0 * 0.0125]
+    assert sum("two standard errors of 95 %" in finding for finding in more) == 2 * len(near)
+    for finding in (area, sites, *more):
         known = recorded(finding)
         assert isinstance(known, Said)
         assert language("en").plain(known) == finding

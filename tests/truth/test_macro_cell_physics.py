@@ -173,8 +173,10 @@ def test_saturated_concrete_is_negative_without_corrosion() -> None:
     assert cell.potentials.concrete == pytest.approx(expected, abs=2e-3)
     assert expected < -0.35
     assert cell.joint.steel_area[0].max() < 1e-12
-    spot = solved(sites=(), moisture=(wet.model_copy(update={"radius_m": 0.1}),))
-    assert spot.potentials.concrete.min() > -0.13
+    # With one polarisation curve for all passive steel no starved spot looks active.
+    for radius_m, drawn_v in ((0.1, 1e-3), (0.3, 3e-3)):
+        spot = solved(sites=(), moisture=(wet.model_copy(update={"radius_m": radius_m}),))
+        assert -0.12 - drawn_v < spot.potentials.concrete.min() < -0.12
 
 
 def test_moisture_and_chlorides_lower_the_resistivity_where_they_are() -> None:

@@ -16,6 +16,15 @@ surface a site that is wide against its cover gets more negative with it (radius
 −542 mV at 20 Ω·m, −592 mV at 3000 Ω·m), a narrow one does not (5 cm: −415 and −398 mV), because
 less of its potential reaches the surface.
 
+What it cannot show: a passive place that looks active because it lacks oxygen. All passive steel
+has one polarisation curve, whose anodic branch changes with the potential, and is joined by the
+mat. Where a spot of it is starved, the rest of the mat feeds it with a current of less than 0.2
+mA/m² and holds it up: in a wall of 0.8 m × 0.8 m with 200 Ω·m a spot without oxygen, of a
+standard deviation of 0.3 m, reads 1 mV below the rest (2 mV with 2000 Ω·m). Only a wall that is
+starved all over falls to its starved rest (``steel``). So false alarms of saturated concrete at
+single places, which practice knows, do not come from this model, and its false areas are those of
+fields that reach beyond their sites.
+
 Source of the formulation: Kranc & Sagüés, "Detailed modeling of corrosion macrocells on steel
 reinforcing in concrete", Corrosion Science 43 (2001) 1355–1372.
 """

@@ -7,8 +7,9 @@ Tafel slopes per decade and i_L the limit that oxygen's diffusion sets,
     i(E) = i_a − i_c                  net, anodic positive, A/m²
 
 i rises with E everywhere, so that a mat has one solution. Without a limit i(E₀) = 0; with i_L far
-below i₀, as in saturated concrete, passive steel rests where i_a = i_L, much more negative than E₀
-and without corroding.
+below i₀, as in saturated concrete, isolated passive steel rests where i_a = i_L, much more negative
+than E₀ and without corroding. In a mat that holds only where all of it is starved: a starved spot
+is held up by the steel around it (``truth.macro_cell``).
 """
 
 from __future__ import annotations
