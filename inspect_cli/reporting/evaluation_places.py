@@ -42,10 +42,14 @@ def judged(found: GradientFindings) -> Text:
     """The gradient criterion in one sentence."""
     if found.minima == 0:
         return say("The gradient criterion finds nothing to judge: {why}.", why=recorded(found.why))
+    if found.minima == 1 and found.active:
+        return say(
+            "The one negative minimum rises by at least 100 mV within 1 m and indicates active "
+            "corrosion by the gradient criterion (RILEM TC 154-EMC)."
+        )
     return count(
         found.minima,
-        "Of {n} negative minimum {active} rises by at least 100 mV within 1 m and indicates active "
-        "corrosion by the gradient criterion (RILEM TC 154-EMC).",
+        "The gradient criterion (RILEM TC 154-EMC) does not call the one negative minimum active.",
         "Of {n} negative minima {active} rise by at least 100 mV within 1 m and indicate active "
         "corrosion by the gradient criterion (RILEM TC 154-EMC).",
         active=number(found.active, 0),

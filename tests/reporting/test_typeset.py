@@ -350,3 +350,10 @@ def test_a_failure_of_the_typesetter_is_told(tmp_path: Path) -> None:
     with pytest.raises(EnvironmentFault, match="cannot be typeset"):
         write_pdf(broken, ENGLISH, tmp_path / "report.pdf")
     assert not list(tmp_path.iterdir())
+
+
+def test_a_verdict_has_one_sign() -> None:
+    chips: list[Text] = [Chip(say("✓ pass"), "pass"), Chip(say("✗ fail"), "fail")]
+    table = Table("", [Column("A"), Column("B")], [chips])
+    text = text_of(pdf(document(blocks=[table]), ENGLISH))
+    assert (text.count("✓"), text.count("✗")) == (1, 1)
