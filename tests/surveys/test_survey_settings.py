@@ -98,6 +98,17 @@ def test_bad_options_are_refused_by_their_name(tmp_path: Path) -> None:
     assert "option: spacing_m[0]: must be above 0" in str(caught.value)
 
 
+@pytest.mark.parametrize("number", ["-1", ".nan", "0"])
+def test_a_number_that_stands_for_a_pair_is_refused_once(tmp_path: Path, number: str) -> None:
+    with pytest.raises(SchemaError) as caught:
+        read_settings(settings_file(tmp_path, f"spacing_m: {number}\n"))
+    (problem,) = caught.value.problems
+    assert str(problem.where).endswith("slab.survey.yaml:1:12: spacing_m")
+    with pytest.raises(InputError) as option:
+        read_settings(tmp_path / "other.csv", {"spacing_m": float(number.lstrip("."))})
+    assert len(option.value.problems) == 1
+
+
 def test_the_settings_reach_the_survey(tmp_path: Path) -> None:
     readings = settings_file(tmp_path, "potential_unit: V\nresistivity: rho.txt\nsign: inverted\n")
     readings.write_text("0.35,0.34\n0.3,0.2\n")
