@@ -26,9 +26,16 @@ from inspect_cli.assessment.kriging import KrigedMap
 from inspect_cli.assessment.mixture import resolution_of
 from inspect_cli.assessment.readings import Readings
 from inspect_cli.assessment.temperatures import standardised
-from inspect_cli.commands.delivery import Export, Wanted, deliver, export, report_folder
+from inspect_cli.commands.delivery import (
+    Export,
+    Wanted,
+    deliver,
+    export,
+    report_folder,
+    require_room,
+)
 from inspect_cli.commands.evaluating import mapped
-from inspect_cli.commands.runs import READINGS_NAME, write_model
+from inspect_cli.commands.runs import METRICS_NAME, READINGS_NAME, write_model
 from inspect_cli.exchange.readings import HandedReadings
 from inspect_cli.exchange.readings_csv import readings_csv
 from inspect_cli.files import write_whole
@@ -72,6 +79,8 @@ def report_readings(
     Raises:
         InputError: a cell, a setting or a file is refused; then nothing is written.
     """
+    folder = out or Path("reports") / file.stem
+    require_room(folder)
     settings = read_settings(file, options)
     wanted = Wanted(language=settings.language, pdf=pdf, exports=exports)
     survey = read_survey(file, settings)
@@ -80,8 +89,8 @@ def report_readings(
     evaluated = mapped(assess(name, readings, basis=basis))
     points = points_of(name, survey, readings, evaluated.assessed)
     result = _result(file, survey, evaluated)
-    folder = report_folder(out or Path("reports") / file.stem)
-    write_model(folder / "metrics.json", result)
+    report_folder(folder)
+    write_model(folder / METRICS_NAME, result)
     write_whole(folder / READINGS_NAME, readings_csv(points))
     handed = HandedReadings(
         points=points,

@@ -218,3 +218,27 @@ def test_a_file_is_no_folder(
     out = tmp_path / "file" / beneath
     assert cli.run(["report", "--readings", str(small), "--out", str(out)]) == 2
     assert "cannot be a folder" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize(
+    "name",
+    [
+        *("metrics.json", "readings.csv", "report.html", "report.pdf"),
+        *("readings.geojson", "readings.ifc"),
+    ],
+)
+@pytest.mark.parametrize("wanted", [[], ["--pdf", "--export", "geojson,ifc"]])
+def test_a_folder_where_a_file_has_to_be_is_refused_first(
+    name: str,
+    wanted: list[str],
+    small: Path,
+    tmp_path: Path,
+    capsys: pytest.CaptureFixture[str],
+) -> None:
+    out = tmp_path / "out"
+    (out / name).mkdir(parents=True)
+    small.write_text("wet", encoding="utf-8")  # it is not even read
+    assert cli.run(["report", "--readings", str(small), "--out", str(out), *wanted]) == 2
+    told = " ".join(capsys.readouterr().err.split())
+    assert f"{out / name} is a folder" in told
+    assert list(out.iterdir()) == [out / name]
