@@ -73,7 +73,10 @@ def test_options_come_before_the_file(tmp_path: Path) -> None:
         ("electrode: AgCl\n", "choices: CSE, SCE, Ag/AgCl sat. KCl, Ag/AgCl 1 M KCl, Ag/AgCl 0.1"),
         ("a: 1\n", "slab.survey.yaml:1:1: a: unknown key 'a'"),
         ("spacing_m: 0\n", "slab.survey.yaml:1:12: spacing_m"),
-        ("spacing_m: [1, -1]\n", "slab.survey.yaml:1:16: spacing_m[1]: must be above 0"),
+        ("spacing_m: [1, -1]\n", "slab.survey.yaml:1:16: spacing_m[1]: must be at least 0.001"),
+        ("spacing_m: 1e300\n", "slab.survey.yaml:1:12: spacing_m: must be at most 1000"),
+        ("origin_m: [0, 1e9]\n", "slab.survey.yaml:1:15: origin_m[1]: must be at most 1e+08"),
+        ("seen_from_m: [-1e9, 0, 0]\n", "slab.survey.yaml:1:15: seen_from_m[0]: must be at least"),
         ("spacing_m: wide\n", "give one number, or [between columns, between rows]"),
         ("spacing_cm: 5\n", "spacing_m: 0.05"),
         ("date: 31.3.2025\n", "slab.survey.yaml:1:7: date: a date is written as 2025-03-31"),
@@ -95,7 +98,7 @@ def test_bad_options_are_refused_by_their_name(tmp_path: Path) -> None:
     with pytest.raises(InputError) as caught:
         read_settings(tmp_path / "slab.csv", {"electrode": "Ag/AgCl", "spacing_m": (0.0, 1.0)})
     assert "option: electrode: no such choice: Ag/AgCl" in str(caught.value)
-    assert "option: spacing_m[0]: must be above 0" in str(caught.value)
+    assert "option: spacing_m[0]: must be at least 0.001" in str(caught.value)
 
 
 @pytest.mark.parametrize("number", ["-1", ".nan", "0"])
