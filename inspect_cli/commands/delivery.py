@@ -44,18 +44,22 @@ class Wanted:
     exports: tuple[Export, ...] = ()
 
 
-def exports_of(text: str) -> tuple[Export, ...]:
-    """The exports that an option names, with commas between them.
+def exports_of(text: str | None) -> tuple[Export, ...]:
+    """The exports that an option names, with commas between them; none without it.
 
     Raises:
-        InputError: one is not known.
+        InputError: one is not known, or the option is there and names none.
     """
+    if text is None:
+        return ()
     found: list[Export] = []
     for name in (part.strip() for part in text.split(",") if part.strip()):
         known = next((export for export in get_args(Export) if export == name), None)
         if known is None:
             raise InputError(f"--export: there is no '{name}'", hint=suggest(name, list(EXPORTS)))
         found.append(known)
+    if not found:
+        raise InputError("--export names nothing", hint=f"choices: {', '.join(EXPORTS)}")
     return tuple(dict.fromkeys(found))
 
 

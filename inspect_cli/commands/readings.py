@@ -36,6 +36,7 @@ from inspect_cli.commands.delivery import (
 )
 from inspect_cli.commands.evaluating import mapped
 from inspect_cli.commands.runs import METRICS_NAME, READINGS_NAME, write_model
+from inspect_cli.errors import InputError
 from inspect_cli.exchange.readings import HandedReadings
 from inspect_cli.exchange.readings_csv import readings_csv
 from inspect_cli.files import write_whole
@@ -84,6 +85,7 @@ def report_readings(
     settings = read_settings(file, options)
     wanted = Wanted(language=settings.language, pdf=pdf, exports=exports)
     survey = read_survey(file, settings)
+    _refuse_idle(options or {}, survey)
     name = survey.settings.structure or file.stem
     readings, basis = standard_readings(survey)
     evaluated = mapped(assess(name, readings, basis=basis))
@@ -102,6 +104,29 @@ def report_readings(
     export(folder, handed, wanted, survey.settings.georeference)
     page = deliver(folder, readings_document(result, points, evaluated), wanted)
     return ReadingsOutcome(result, page)
+
+
+def _refuse_idle(options: Mapping[str, object], survey: Survey) -> None:
+    """Refuse what somebody asked for and this file has no use for: it is not the file they think.
+
+    Settings that stand beside a file may be shared by several and are no such wish.
+    """
+    idle = {
+        "resistivity_unit": (
+            not np.isfinite(survey.resistivity_ohm_m).any(),
+            "there are no resistivities",
+            "name their file with --resistivity, or give a list a column of them",
+        ),
+        "spacing_m": (survey.grid is None, "a list has coordinates of its own", "leave it out"),
+        "coordinate_unit": (
+            survey.grid is not None,
+            "a grid has no coordinates",
+            "state the distance of its readings with --spacing-m",
+        ),
+    }
+    for key, (is_idle, why, hint) in idle.items():
+        if is_idle and options.get(key) is not None:
+            raise InputError(f"--{key.replace('_', '-')} is given, but {why}", hint=hint)
 
 
 def standard_readings(survey: Survey) -> tuple[Readings, Basis]:

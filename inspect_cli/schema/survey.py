@@ -49,6 +49,9 @@ def _day(value: str) -> str:
         day = ""
     if day != value:
         raise ValueError(f"a date is written as 2025-03-31; found {value!r}")
+    # Somewhere on Earth it may be tomorrow already.
+    if datetime.date.fromisoformat(value) > datetime.date.today() + datetime.timedelta(days=1):
+        raise ValueError(f"{value} is in the future: give the day when the readings were taken")
     return value
 
 

@@ -24,6 +24,10 @@ POSITIVE_MV = 150.0
 MOST_POSITIVE_MV = 250.0
 """More than any steel in concrete reads: a sign is missing, or was turned that was right."""
 VOLTS_BELOW, MILLIVOLTS_ABOVE = 2.0, 20.0
+MOST_LIKE_VOLTS = 3.0
+"""A survey that never leaves ±3 is one in volts, or none of steel: steel in concrete spreads over
+tens of millivolts. A little more than potentials in volts can be, since one of them may be wrong.
+"""
 MOST_DECIMALS = 6
 
 
@@ -100,17 +104,18 @@ def resistivities_ohm_m(raw: Vector, unit: Unit, where: Where) -> Vector:
 def _refuse_volts(raw: Vector, valid: Mask, stated: bool, where: Where) -> None:
     """Numbers in volts that are taken for millivolts, all of them or some.
 
-    Of readings in mV, those near zero are whole, or have no more decimals than the others and,
-    where the unit is only assumed, others between ``VOLTS_BELOW`` and ``MILLIVOLTS_ABOVE`` beside
-    them: potentials of one surface run on from place to place.
+    Readings in mV that are only assumed to be such do not all lie within ±``MOST_LIKE_VOLTS``.
+    Those near zero are whole, or have no more decimals than the others and, where the unit is only
+    assumed, others between ``VOLTS_BELOW`` and ``MILLIVOLTS_ABOVE`` beside them: potentials of one
+    surface run on from place to place.
     """
     magnitude = np.where(valid, np.abs(raw), 0.0)
     small = (magnitude > 0) & (magnitude < VOLTS_BELOW) & (raw != np.round(raw))
     large = magnitude > MILLIVOLTS_ABOVE
-    if not large.any() and not stated and small.any() and magnitude.max() < VOLTS_BELOW:
-        k = int(np.flatnonzero(small)[0])
-        what = f"{raw[k]:g}, like all others, looks like volts where millivolts are assumed"
-        hint = "state potential_unit: V, or potential_unit: mV if it is so"
+    if not stated and magnitude.max() <= MOST_LIKE_VOLTS:
+        k = int(np.flatnonzero(valid)[0])
+        what = f"{raw[k]:g}, like all others within ±{MOST_LIKE_VOLTS:g}, looks like volts"
+        hint = "state the unit: --unit V or --unit mV, or potential_unit in the settings"
         raise InputError(Problem(what, where(k), hint))
     if not large.any() or not small.any():
         return

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import datetime
 from pathlib import Path
 
 import pytest
@@ -56,6 +57,17 @@ def test_without_a_file_all_is_default(tmp_path: Path) -> None:
     assert settings.spacing_m == (0.1016, 0.1016)
 
 
+def test_today_and_tomorrow_are_no_future(tmp_path: Path) -> None:
+    """Where the file was written, the day may have begun already."""
+    today = datetime.date.today()
+    for days in (0, 1):
+        day = (today + datetime.timedelta(days)).isoformat()
+        assert read_settings(settings_file(tmp_path, f"date: {day}\n")).date == day
+    late = (today + datetime.timedelta(3)).isoformat()
+    with pytest.raises(SchemaError, match="is in the future"):
+        read_settings(settings_file(tmp_path, f"date: {late}\n"))
+
+
 def test_options_come_before_the_file(tmp_path: Path) -> None:
     readings = settings_file(tmp_path, "spacing_m: 0.5\nelectrode: SCE\nresistivity: rho.txt\n")
     options = {"spacing_m": (0.2, 0.3), "resistivity": "here.txt", "title": None}
@@ -81,6 +93,7 @@ def test_options_come_before_the_file(tmp_path: Path) -> None:
         ("spacing_cm: 5\n", "spacing_m: 0.05"),
         ("date: 31.3.2025\n", "slab.survey.yaml:1:7: date: a date is written as 2025-03-31"),
         ("date: 2025-02-30\n", "a date is written as 2025-03-31; found '2025-02-30'"),
+        ("date: 2999-01-01\n", "slab.survey.yaml:1:7: date: 2999-01-01 is in the future"),
         ("temperature_c: 300\n", "slab.survey.yaml:1:16: temperature_c: must be at most 60"),
         ("language: fr\n", "choices: en, de"),
         ("sign: inverted\nsign: as_read\n", "slab.survey.yaml:2:1: sign: the key 'sign' a second"),
