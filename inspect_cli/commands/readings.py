@@ -80,6 +80,8 @@ def report_readings(
     Raises:
         InputError: a cell, a setting or a file is refused; then nothing is written.
     """
+    if file.is_dir():
+        raise InputError(f"{file} is a folder", hint="name a file of readings, one per surface")
     folder = out or Path("reports") / file.stem
     require_room(folder)
     settings = read_settings(file, options)

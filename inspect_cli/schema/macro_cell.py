@@ -20,6 +20,7 @@ LAYERS_ABOVE, LAYERS_BELOW = 4, 6
 LEAST_OHM_M, MOST_OHM_M = 1.0, 1e6
 """Concrete has some 5 Ω·m where it is saturated with chlorides, and 10⁵ Ω·m where it is dry."""
 
+Extent = Annotated[float, Field(gt=0, le=1000)]
 Factor = Annotated[float, Field(gt=0, le=MOST_OHM_M)]
 
 TafelSlope = Annotated[float, Field(ge=0.02, le=1.0)]
@@ -86,7 +87,7 @@ class MacroCellSpecimen(Strict):
     """Active and passive steel in concrete, whose potential field is solved for."""
 
     model: Literal["macro_cell"]
-    size_m: tuple[Positive, Positive] | None = None
+    size_m: tuple[Extent, Extent] | None = None
     """Extent of the concrete along u and v; the whole surface without it. Its edges are
     insulated, beyond them nothing can be read."""
     at_m: tuple[float, float] = (0.0, 0.0)
@@ -179,7 +180,7 @@ def refuse_too_many_nodes(specimen: MacroCellSpecimen, size_m: tuple[float, floa
 
     least = specimen.resolution_m
     if nodes(least) > MOST_NODES:
-        while nodes(float(f"{least:.2g}")) > MOST_NODES:
+        while nodes(float(f"{least:.2g}")) > MOST_NODES and least < max(size_m):
             least *= 1.01
         raise ValueError(
             f"{size_m[0]:g} m × {size_m[1]:g} m every {specimen.resolution_m:g} m are too many "

@@ -29,6 +29,10 @@ MOST_LIKE_VOLTS = 3.0
 tens of millivolts. A little more than potentials in volts can be, since one of them may be wrong.
 """
 MOST_DECIMALS = 6
+LEAST_OHM_M, MOST_OHM_M = 1e-3, 1e9
+"""A thousandth of wet concrete's resistivity, and a thousand times dry concrete's."""
+LEAST_C, MOST_C = 0.0, 49.0
+"""Where ASTM C876 corrects potentials for the temperature."""
 
 
 def potentials_mv(
@@ -91,14 +95,33 @@ def resistivities_ohm_m(raw: Vector, unit: Unit, where: Where) -> Vector:
     """Resistivities (n,) in Ω·m; NaN stays.
 
     Raises:
-        InputError: one is not positive; with its address.
+        InputError: one is not positive, or no concrete's; with its address.
     """
     wrong = raw <= 0.0
     if wrong.any():
         k = int(np.flatnonzero(wrong)[0])
         raise InputError(Problem(f"{raw[k]:g} is not a positive resistivity", where(k)))
     values: Vector = raw * unit.factor
+    odd = np.flatnonzero((values < LEAST_OHM_M) | (values > MOST_OHM_M))
+    if len(odd):
+        k = int(odd[0])
+        what = f"{raw[k]:g} {unit.name} is no resistivity of concrete"
+        raise InputError(Problem(what, where(k), "correct the cell, or state resistivity_unit"))
     return values
+
+
+def temperatures_c(raw: Vector, where: Where) -> Vector:
+    """Temperatures (n,) in °C; NaN stays.
+
+    Raises:
+        InputError: potentials cannot be corrected for one; with its address.
+    """
+    odd = np.flatnonzero((raw < LEAST_C) | (raw > MOST_C))
+    if len(odd):
+        k = int(odd[0])
+        what = f"{raw[k]:g} °C: potentials are corrected from {LEAST_C:g} to {MOST_C:g} °C"
+        raise InputError(Problem(what, where(k), "correct the cell, or empty it"))
+    return raw
 
 
 def _refuse_volts(raw: Vector, valid: Mask, stated: bool, where: Where) -> None:

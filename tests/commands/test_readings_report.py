@@ -284,3 +284,20 @@ def test_the_unit_of_what_may_be_volts_has_to_be_stated(
     for unit, least in (("V", -1800.0), ("mV", -1.8)):
         found = reported(tmp_path / unit, "--readings", str(file), "--unit", unit)
         assert surface_of(found)["potential"]["min_mv"] == least
+
+
+@pytest.mark.parametrize("name", [".", ".."])
+def test_a_folder_is_no_file_of_readings(
+    name: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    assert cli.run(["report", "--readings", name]) == 2
+    assert f"{name} is a folder" in capsys.readouterr().err
+
+
+def test_settings_that_are_a_folder_are_not_passed_over(
+    small: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    (tmp_path / "deck.survey.yaml").mkdir()
+    assert cli.run(["report", "--readings", str(small), "--out", str(tmp_path / "out")]) == 2
+    assert "deck.survey.yaml" in capsys.readouterr().err

@@ -42,7 +42,7 @@ PLACE = "truth.structure.wall.specimen"
         ),
         (
             "cover_m: 0.03, size_m: [20, 20]",
-            "every 0.02 m are too many nodes: give a resolution_m of at least 0.054",
+            "every 0.02 m are too many nodes: give a resolution_m of at least 0.052",
         ),
         (
             "cover_m: 0.03, active: {rest_v: -0.6, current_uapcm2: 1, anodic_slope_vpdec: 0.06,"

@@ -41,7 +41,7 @@ EXTREMES: list[dict[str, Any]] = [
 
 def test_spots_that_leave_no_concrete_are_refused() -> None:
     spot = MoistSpot(at_m=(0.0, 0.0), radius_m=0.3, resistivity_factor=0.01)
-    with pytest.raises(InputError, match=r"leave resistivities of 2\.\d+e-08 to"):
+    with pytest.raises(InputError, match=r"leave resistivities of 1\.\d+e-08 to"):
         solved(moisture=(spot,) * 5)
 
 
