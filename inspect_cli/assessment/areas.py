@@ -22,7 +22,7 @@ from typing import TYPE_CHECKING, Final
 import numpy as np
 from numpy.typing import NDArray
 
-from inspect_cli.assessment.spacing import Spacing
+from inspect_cli.assessment.spacing import Spacing, from_corner
 from inspect_cli.compiled import kernel
 from inspect_cli.spatial.arrays import Points, Vector
 
@@ -73,8 +73,10 @@ def cells_of(
         return None
     scale = np.array([spacing.u_m, spacing.v_m])
     reach = (GRID_REACH if spacing.is_grid else IRREGULAR_REACH) * scale
-    edges = np.zeros((0, 3)) if spacing.is_grid else _hull_edges(uv_m, 0.5 * scale)
-    cells = _cut_cells(uv_m, reach, edges, spacing)
+    corner, places = from_corner(uv_m)
+    edges = np.zeros((0, 3)) if spacing.is_grid else _hull_edges(places, 0.5 * scale)
+    cells = _cut_cells(places, reach, edges, spacing)
+    cells = replace(cells, corners_m=cells.corners_m + corner)
     if region is None:
         return cells
     return replace(cells, area_m2=_areas_within(cells, region))

@@ -14,6 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from inspect_cli.assessment.hull import LARGEST_GAP, measured_hull, typical_pitch
+from inspect_cli.assessment.spacing import PLACE_DECIMALS, from_corner
 from inspect_cli.assessment.supports import (
     Supports,
     distinct_places,
@@ -86,8 +87,10 @@ def krige(uv_m: Floats, potential_v: Floats, measurement_sd_v: Floats | None) ->
     Source: Cressie, Statistics for Spatial Data (1993), section 3.2.
     """
     uv, potential, variance = _valid(uv_m, potential_v, measurement_sd_v)
-    origin = uv.mean(axis=0) if len(uv) else np.zeros(2)
-    uv = uv - origin
+    origin, uv = from_corner(uv) if len(uv) else (np.zeros(2), uv)
+    # A micrometre is finer than any place is known, and coarser than the rounding of large
+    # coordinates, which otherwise chose the 32 nearest among readings that are equally near.
+    uv = np.round(uv, PLACE_DECIMALS)
     places = distinct_places(uv)
     why = _why_not(places, len(uv))
     if why is not None:

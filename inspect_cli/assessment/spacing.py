@@ -37,6 +37,16 @@ SAME_GAP: Final = 0.01
 """Relative difference of two gaps that count as the same."""
 
 
+def from_corner(uv_m: Points) -> tuple[Vector, Points]:
+    """Where u and v of n > 0 places (n, 2) are least (2,), and the places from there (n, 2), m.
+
+    Coordinates of a national grid are millions of metres. Sums of their squares and products lose
+    the digits that geometry within a survey needs; differences of such coordinates do not.
+    """
+    corner = uv_m.min(axis=0)
+    return corner, uv_m - corner
+
+
 class Spacing(NamedTuple):
     """Typical distance between neighbouring readings along u and v, m, and how it was found."""
 
@@ -105,7 +115,7 @@ def neighbours(uv_m: Points, spacing: Spacing) -> NDArray[np.intp]:
         return np.zeros((0, 2), np.intp)
     from scipy.spatial import cKDTree
 
-    scaled = _in_spacings(uv_m, spacing)
+    scaled = _in_spacings(from_corner(uv_m)[1], spacing)
     reach = DIAGONAL_SPACINGS if spacing.is_grid else IRREGULAR_SPACINGS
     tree = cKDTree(scaled)
     if spacing.is_grid and tree.count_neighbors(tree, reach) <= CROWDED * len(uv_m):

@@ -11,6 +11,8 @@ from typing import Annotated, Literal
 
 import typer
 
+from inspect_cli.errors import InputError
+
 app = typer.Typer(
     name="inspect",
     help="Contact-based non-destructive testing by flying robots: plan, fly, report, regress.",
@@ -19,11 +21,30 @@ app = typer.Typer(
     context_settings={"help_option_names": ["-h", "--help"]},
 )
 
+
+def named_path(text: str) -> Path:
+    """A path from the command line.
+
+    Raises:
+        InputError: it is empty, as a variable that is not set leaves it; pathlib would take it
+            for the working directory.
+    """
+    if not text.strip():
+        raise InputError("a path is empty", hint="name a file or a folder; . is this folder")
+    return Path(text)
+
+
 Mission = Annotated[Path, typer.Argument(metavar="MISSION", help="The mission's YAML file.")]
 Json = Annotated[bool, typer.Option("--json", help="Print one JSON object on stdout.")]
-Out = Annotated[Path | None, typer.Option(metavar="DIR", help="Write here instead of in reports/.")]
+Out = Annotated[
+    Path | None,
+    typer.Option(metavar="DIR", help="Write here instead of in reports/.", parser=named_path),
+]
 ReportOut = Annotated[
-    Path | None, typer.Option("--out", metavar="DIR", help="Write here instead of beside the log.")
+    Path | None,
+    typer.Option(
+        "--out", metavar="DIR", help="Write here instead of beside the log.", parser=named_path
+    ),
 ]
 Language = Annotated[Literal["en", "de"], typer.Option(help="Of the page.")]
 Platform = Annotated[

@@ -7,7 +7,7 @@ from typing import Annotated, Literal
 
 import typer
 
-from inspect_cli.cli.program import Json, ReportOut, print_json, stdout_kept_clean
+from inspect_cli.cli.program import Json, ReportOut, named_path, print_json, stdout_kept_clean
 from inspect_cli.errors import EXIT_CHECK_FAILED, EXIT_GOOD, InputError
 
 READINGS = "Readings without a flight"
@@ -22,7 +22,9 @@ def report(
         Literal["en", "de"] | None, typer.Option(help="Of page and PDF; English by default.")
     ] = None,
     pdf: Annotated[bool, typer.Option("--pdf", help="Write report.pdf, too.")] = False,
-    export: Annotated[str, typer.Option(metavar="KIND,…", help="Readings as geojson, ifc.")] = "",
+    export: Annotated[
+        str | None, typer.Option(metavar="KIND,…", help="Readings as geojson, ifc.")
+    ] = None,
     no_pictures: Annotated[
         bool, typer.Option("--no-pictures", help="Render no scene and no film.")
     ] = False,
@@ -30,6 +32,7 @@ def report(
         Path | None,
         typer.Option(
             metavar="FILE",
+            parser=named_path,
             help="CSV or Excel: a grid, or a list with x, y[, z].",
             rich_help_panel=READINGS,
         ),
@@ -37,7 +40,10 @@ def report(
     resistivity: Annotated[
         Path | None,
         typer.Option(
-            metavar="FILE", help="Resistivities at the same points.", rich_help_panel=READINGS
+            metavar="FILE",
+            parser=named_path,
+            help="Resistivities at the same points.",
+            rich_help_panel=READINGS,
         ),
     ] = None,
     unit: Annotated[
@@ -129,7 +135,7 @@ def _report_flights(
     out: Path | None,
     language: Literal["en", "de"],
     pdf: bool,
-    export: str,
+    export: str | None,
     no_pictures: bool,
     as_json: bool,
 ) -> int:
@@ -161,7 +167,7 @@ def _report_readings(
     options: dict[str, object],
     out: Path | None,
     pdf: bool,
-    export: str,
+    export: str | None,
     as_json: bool,
 ) -> int:
     from inspect_cli import terminal

@@ -5,14 +5,17 @@ A folder holds one report: a file of an earlier one that has no successor is rem
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Literal, get_args
 
+from inspect_cli.commands.runs import METRICS_NAME, READINGS_NAME
 from inspect_cli.errors import InputError
 from inspect_cli.exchange.readings import HandedReadings
 from inspect_cli.files import write_whole
 from inspect_cli.log.reader import RunLog
+from inspect_cli.pictures.names import FILM_NAME, SCENE_NAME
 from inspect_cli.reporting.content import Document
 from inspect_cli.reporting.html import html
 from inspect_cli.reporting.language import language as language_of
@@ -25,6 +28,10 @@ PDF_NAME = "report.pdf"
 Export = Literal["geojson", "ifc"]
 EXPORTS: dict[Export, str] = {"geojson": "readings.geojson", "ifc": "readings.ifc"}
 """The files by what they are for."""
+REPORT_FILES = (METRICS_NAME, READINGS_NAME, REPORT_NAME, PDF_NAME, *EXPORTS.values())
+"""What a report writes, or removes where an earlier one left it."""
+PICTURES = (SCENE_NAME, FILM_NAME)
+"""The same of a flight besides."""
 
 
 @dataclass(frozen=True)
@@ -37,19 +44,39 @@ class Wanted:
     exports: tuple[Export, ...] = ()
 
 
-def exports_of(text: str) -> tuple[Export, ...]:
-    """The exports that an option names, with commas between them.
+def exports_of(text: str | None) -> tuple[Export, ...]:
+    """The exports that an option names, with commas between them; none without it.
 
     Raises:
-        InputError: one is not known.
+        InputError: one is not known, or the option is there and names none.
     """
+    if text is None:
+        return ()
     found: list[Export] = []
     for name in (part.strip() for part in text.split(",") if part.strip()):
         known = next((export for export in get_args(Export) if export == name), None)
         if known is None:
             raise InputError(f"--export: there is no '{name}'", hint=suggest(name, list(EXPORTS)))
         found.append(known)
+    if not found:
+        raise InputError("--export names nothing", hint=f"choices: {', '.join(EXPORTS)}")
     return tuple(dict.fromkeys(found))
+
+
+def require_room(folder: Path, files: Iterable[str] = REPORT_FILES) -> None:
+    """Refuse, before anything is computed, a place that cannot take a report's files.
+
+    Raises:
+        InputError: a file stands where a folder has to be, or a folder where a file has to be.
+    """
+    there = next((path for path in (folder, *folder.parents) if path.exists()), folder)
+    if there.exists() and not there.is_dir():
+        what = f"{folder} cannot be a folder: {there} is a file"
+        raise InputError(what, hint="choose another with --out")
+    for path in (folder / name for name in files):
+        if path.is_dir():
+            what = f"{path} is a folder where the report writes a file"
+            raise InputError(what, hint="move it away, or choose another folder with --out")
 
 
 def report_folder(folder: Path) -> Path:

@@ -8,6 +8,7 @@ from pathlib import Path
 
 from pydantic import ValidationError
 
+from inspect_cli.commands.beneath import structure_beneath
 from inspect_cli.commands.flying import Progress, fly_into
 from inspect_cli.commands.plan import inputs_sha256, plan_loaded, vehicle_of
 from inspect_cli.commands.runs import prepared_run, run_folder
@@ -18,7 +19,6 @@ from inspect_cli.schema.loading import Loaded, load_mission
 from inspect_cli.schema.plan import Plan, PlanFile
 from inspect_cli.schema.result import Result
 from inspect_cli.simulation.loop import Ending
-from inspect_cli.truth.geometry import true_structure
 
 PLAN_FIRST = "make it anew with 'inspect plan MISSION'"
 
@@ -63,7 +63,7 @@ def fly_loaded(
     seed = loaded.mission.seeds[0] if seed is None else seed
     folder = out or run_folder(loaded.root, plan.mission, plan.platform, seed)
     believed = plan.sorties[0].plan.surfaces if isinstance(plan, CoveragePlan) else plan.surfaces
-    structure = true_structure(loaded.truth, believed, loaded.root)
+    structure = structure_beneath(loaded, believed)
     with prepared_run(folder):
         if isinstance(plan, CoveragePlan):
             result, ending = fly_survey(folder, vehicle, plan, loaded, structure, seed, progress)

@@ -8,7 +8,7 @@ from collections.abc import Callable
 from importlib.metadata import version
 from pathlib import Path
 
-from inspect_cli.commands.runs import LOG_NAME, write_json, write_model
+from inspect_cli.commands.runs import LOG_NAME, METRICS_NAME, write_json, write_model
 from inspect_cli.log import names
 from inspect_cli.log.rasters import encoded
 from inspect_cli.log.reader import read_log
@@ -56,7 +56,7 @@ def fly_into(
     ending = _fly(folder, vehicle, plan, loaded, structure, seed, progress)
     write_model(folder / "plan.json", plan)
     result = evaluate(read_log(folder / LOG_NAME))
-    write_model(folder / "metrics.json", result)
+    write_model(folder / METRICS_NAME, result)
     write_json(folder / "timing.json", timing(ending))
     return result, ending
 

@@ -26,9 +26,17 @@ from inspect_cli.assessment.kriging import KrigedMap
 from inspect_cli.assessment.mixture import resolution_of
 from inspect_cli.assessment.readings import Readings
 from inspect_cli.assessment.temperatures import standardised
-from inspect_cli.commands.delivery import Export, Wanted, deliver, export, report_folder
+from inspect_cli.commands.delivery import (
+    Export,
+    Wanted,
+    deliver,
+    export,
+    report_folder,
+    require_room,
+)
 from inspect_cli.commands.evaluating import mapped
-from inspect_cli.commands.runs import READINGS_NAME, write_model
+from inspect_cli.commands.runs import METRICS_NAME, READINGS_NAME, write_model
+from inspect_cli.errors import InputError
 from inspect_cli.exchange.readings import HandedReadings
 from inspect_cli.exchange.readings_csv import readings_csv
 from inspect_cli.files import write_whole
@@ -72,16 +80,21 @@ def report_readings(
     Raises:
         InputError: a cell, a setting or a file is refused; then nothing is written.
     """
+    if file.is_dir():
+        raise InputError(f"{file} is a folder", hint="name a file of readings, one per surface")
+    folder = out or Path("reports") / file.stem
+    require_room(folder)
     settings = read_settings(file, options)
     wanted = Wanted(language=settings.language, pdf=pdf, exports=exports)
     survey = read_survey(file, settings)
+    _refuse_idle(options or {}, survey)
     name = survey.settings.structure or file.stem
     readings, basis = standard_readings(survey)
     evaluated = mapped(assess(name, readings, basis=basis))
     points = points_of(name, survey, readings, evaluated.assessed)
     result = _result(file, survey, evaluated)
-    folder = report_folder(out or Path("reports") / file.stem)
-    write_model(folder / "metrics.json", result)
+    report_folder(folder)
+    write_model(folder / METRICS_NAME, result)
     write_whole(folder / READINGS_NAME, readings_csv(points))
     handed = HandedReadings(
         points=points,
@@ -93,6 +106,29 @@ def report_readings(
     export(folder, handed, wanted, survey.settings.georeference)
     page = deliver(folder, readings_document(result, points, evaluated), wanted)
     return ReadingsOutcome(result, page)
+
+
+def _refuse_idle(options: Mapping[str, object], survey: Survey) -> None:
+    """Refuse what somebody asked for and this file has no use for: it is not the file they think.
+
+    Settings that stand beside a file may be shared by several and are no such wish.
+    """
+    idle = {
+        "resistivity_unit": (
+            not np.isfinite(survey.resistivity_ohm_m).any(),
+            "there are no resistivities",
+            "name their file with --resistivity, or give a list a column of them",
+        ),
+        "spacing_m": (survey.grid is None, "a list has coordinates of its own", "leave it out"),
+        "coordinate_unit": (
+            survey.grid is not None,
+            "a grid has no coordinates",
+            "state the distance of its readings with --spacing-m",
+        ),
+    }
+    for key, (is_idle, why, hint) in idle.items():
+        if is_idle and options.get(key) is not None:
+            raise InputError(f"--{key.replace('_', '-')} is given, but {why}", hint=hint)
 
 
 def standard_readings(survey: Survey) -> tuple[Readings, Basis]:

@@ -6,15 +6,25 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
-from inspect_cli.commands.delivery import Wanted, deliver, export, handed_readings, report_folder
+from inspect_cli.commands.delivery import (
+    PICTURES,
+    REPORT_FILES,
+    Wanted,
+    deliver,
+    export,
+    handed_readings,
+    report_folder,
+    require_room,
+)
 from inspect_cli.commands.evaluating import evaluated_points
 from inspect_cli.commands.pictures import pictured
-from inspect_cli.commands.runs import log_of, write_model, write_readings
+from inspect_cli.commands.runs import METRICS_NAME, log_of, write_model, write_readings
 from inspect_cli.commands.survey_report import report_survey, survey_of
 from inspect_cli.log.reader import read_log
 from inspect_cli.metrics.evaluate import evaluate
 from inspect_cli.pictures.take import Pictures
 from inspect_cli.reporting.report import report_document
+from inspect_cli.schema.coverage import CoveragePlan
 from inspect_cli.schema.result import Result
 
 
@@ -35,19 +45,27 @@ def report(
 
     Of a survey of several sorties, pictures are those of its first.
 
-    Raises LogError when a file is no log of ours; then nothing is written for it.
+    Raises:
+        LogError: a file is no log of ours; then nothing is written for it.
+        InputError: a folder cannot take a report; then nothing is written at all.
     """
     wanted = wanted or Wanted()
-    return tuple(_report_one(run, _folder(run, out, len(runs)), wanted) for run in runs)
+    asked = [(run, _folder(run, out, len(runs)), survey_of(run)) for run in runs]
+    for _, folder, survey in asked:
+        require_room(folder, (*REPORT_FILES, *PICTURES))
+        for sortie in survey.sorties if survey else ():
+            require_room(folder / sortie.folder)
+    return tuple(_report_one(run, folder, survey, wanted) for run, folder, survey in asked)
 
 
-def _report_one(run: Path, folder: Path, wanted: Wanted) -> ReportOutcome:
-    survey = survey_of(run)
+def _report_one(
+    run: Path, folder: Path, survey: CoveragePlan | None, wanted: Wanted
+) -> ReportOutcome:
     if survey is not None:
         return ReportOutcome(*report_survey(run, survey, folder, wanted))
     log = read_log(log_of(run))
     result, plan = evaluate(log), log.plan()
-    write_model(report_folder(folder) / "metrics.json", result)
+    write_model(report_folder(folder) / METRICS_NAME, result)
     write_readings(folder, result)
     export(folder, handed_readings(log, result), wanted)
     taken = pictured(log, result, folder, wanted.language, wanted=wanted.pictures)

@@ -25,13 +25,14 @@ from inspect_cli.pictures.names import FILM_NAME, SCENE_NAME
 from inspect_cli.schema.result import Result
 
 LOG_NAME = "flight.mcap"
+METRICS_NAME = "metrics.json"
 READINGS_NAME = "readings.csv"
 LOCK_NAME = ".flying"
 RUN_FILES = (
     "plan.json",
     LOG_NAME,
     f"{LOG_NAME}.part",
-    "metrics.json",
+    METRICS_NAME,
     "timing.json",
     READINGS_NAME,
     "report.html",
@@ -58,6 +59,10 @@ def prepared_run(folder: Path) -> Iterator[None]:
 
     Raises InputError when another run is writing there, or nobody can.
     """
+    for name in RUN_FILES:
+        if (folder / name).is_dir():
+            what = f"{folder / name} is a folder where the flight writes a file"
+            raise InputError(what, hint="move it away, or choose another folder with --out")
     try:
         folder.mkdir(parents=True, exist_ok=True)
         lock = (folder / LOCK_NAME).open("w")

@@ -15,6 +15,7 @@ from itertools import pairwise
 import numpy as np
 
 from inspect_cli.assessment.classes import SUSTAINS_CORROSION_OHM_M
+from inspect_cli.commands.beneath import structure_beneath
 from inspect_cli.commands.pitch_sampling import POSITION_SD_M, PitchSampler
 from inspect_cli.commands.plan import plan_loaded, vehicle_of
 from inspect_cli.commands.sweeps import Factor, Study, revalidated, shortest
@@ -49,7 +50,6 @@ from inspect_cli.schema.plan import Plan
 from inspect_cli.schema.study import StudyColumn, StudyResult, StudyVariant, Threshold
 from inspect_cli.schema.tasks import ContactGrid, Coverage
 from inspect_cli.spatial.arrays import Points
-from inspect_cli.truth.geometry import true_structure
 from inspect_cli.truth.rasters import all_beneath
 
 WHOLE_LINES = 1e-9
@@ -126,7 +126,7 @@ def _sampler(loaded: Loaded, seed: int) -> PitchSampler:
     as_it_stands = _with_pitch(loaded, _pitch(loaded))
     plan = plan_loaded(as_it_stands, vehicle_of(as_it_stands))
     one = plan.joined() if isinstance(plan, CoveragePlan) else plan
-    structure = true_structure(loaded.truth, one.surfaces, loaded.root)
+    structure = structure_beneath(loaded, one.surfaces)
     work = _work(as_it_stands)
     beneath = next(b for b in all_beneath(structure, one.surfaces) if b.surface == work.on)
     return PitchSampler(as_it_stands, work, beneath, _planned(one), seed)

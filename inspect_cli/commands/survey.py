@@ -12,7 +12,7 @@ from pathlib import Path
 
 from inspect_cli.commands.flying import FlightInterrupted, Progress, fly_into, timing
 from inspect_cli.commands.plan import surveyor_of
-from inspect_cli.commands.runs import write_json, write_model
+from inspect_cli.commands.runs import METRICS_NAME, write_json, write_model
 from inspect_cli.log.rasters import TrueRaster
 from inspect_cli.metrics.assessed import assessor
 from inspect_cli.metrics.survey import joined_result, scorer
@@ -67,7 +67,7 @@ def fly_survey(
             survey = refinement.after(survey, results)
         joined = join(survey, results, loaded, seed, rasters)
         write_model(folder / "plan.json", survey)
-        write_model(folder / "metrics.json", joined)
+        write_model(folder / METRICS_NAME, joined)
         write_json(folder / "timing.json", timing(_together(joined, endings)))
         if result.status != "completed":
             break

@@ -11,7 +11,14 @@ from pydantic import ValidationError
 from inspect_cli.commands.delivery import Wanted, deliver, export, handed_readings, report_folder
 from inspect_cli.commands.evaluating import evaluated_points
 from inspect_cli.commands.pictures import pictured
-from inspect_cli.commands.runs import LOG_NAME, SORTIES, log_of, write_model, write_readings
+from inspect_cli.commands.runs import (
+    LOG_NAME,
+    METRICS_NAME,
+    SORTIES,
+    log_of,
+    write_model,
+    write_readings,
+)
 from inspect_cli.errors import InputError, LogError
 from inspect_cli.log.reader import RunLog, read_log
 from inspect_cli.metrics.assessed import assessor
@@ -72,7 +79,7 @@ def report_survey(
             break
         result = evaluate(log)
         own = report_folder(folder / sortie.folder)
-        write_model(own / "metrics.json", result)
+        write_model(own / METRICS_NAME, result)
         write_readings(own, result)
         document = report_document(log, result, log.plan(), evaluated_points(result.points, log))
         deliver(own, document, replace(wanted, pdf=False))
@@ -89,7 +96,7 @@ def report_survey(
     joined = joined_result(
         results, unvisited, mission.acceptance, _seed(run), score_all, assess_all
     )
-    write_model(folder / "metrics.json", joined)
+    write_model(folder / METRICS_NAME, joined)
     write_readings(folder, joined)
     which = f"sortie 1 of {len(results)}"
     export(folder, handed_readings(first, joined), wanted)
@@ -134,7 +141,7 @@ def _log_that_was_begun(file: Path) -> RunLog | None:
 def _seed(run: Path) -> int | None:
     """The run's own seed, from which those of its sorties were drawn."""
     try:
-        saved = Result.model_validate_json((run / "metrics.json").read_bytes())
+        saved = Result.model_validate_json((run / METRICS_NAME).read_bytes())
     except (OSError, ValidationError):
         return None
     return saved.seed

@@ -19,6 +19,8 @@ from inspect_cli.schema.units import Unit, converted, parse_quantity, split_key
 def problems_of(error: ValidationError, model: type[BaseModel], root: Node) -> list[Problem]:
     """One problem per error, at file:line:column with its YAML path.
 
+    What one number of the file was made into, such as a pair, is wrong once.
+
     Args:
         error: what validating ``root.plain`` against ``model`` raised.
         model: the model of the whole file.
@@ -34,11 +36,12 @@ def problems_of(error: ValidationError, model: type[BaseModel], root: Node) -> l
         if detail["type"] == "extra_forbidden"
         for key in _meant(spot)
     }
-    return [
+    problems = [
         _problem(detail, spot)
         for detail, spot in details
         if not _follows_from_another(detail, spot, meant)
     ]
+    return list(dict.fromkeys(problems))
 
 
 def suggest(found: str, choices: Sequence[str]) -> str:

@@ -6,6 +6,7 @@ the ``TruthModel`` to the simulator and its sensors alone.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TypeVar
@@ -17,7 +18,7 @@ from inspect_cli.schema.agreement import disagreements
 from inspect_cli.schema.campaign import campaign_root, inside, is_file, platform_files
 from inspect_cli.schema.explain import problems_of, shown, suggest
 from inspect_cli.schema.mission import Mission, MissionFile
-from inspect_cli.schema.nodes import Node, merged, without
+from inspect_cli.schema.nodes import Node, Step, join, merged, without
 from inspect_cli.schema.references import (
     crowded_coverages,
     dangling_surfaces,
@@ -105,6 +106,17 @@ def load_platform(path: Path) -> PlatformBase:
     if model is None:
         raise SchemaError(sorted(problems, key=_place))
     return model
+
+
+def place_in_mission(path: Path, steps: Sequence[Step]) -> Location:
+    """Where a mission that was read, or one that it extends, states the value at ``steps``."""
+    node = _read_extended(path, campaign_root(path), ())
+    for step in steps:
+        child = node.child(step)
+        if child is None:
+            break  # the file has changed meanwhile
+        node = child
+    return node.at(join(steps))
 
 
 def load_survey_settings(path: Path) -> SurveySettings:

@@ -15,8 +15,13 @@ from inspect_cli.schema.geometry import CylinderShape, MeshShape, SphereShape, T
 
 MOST_NODES = 1_500_000
 """Of the surface times the layers in depth: beyond it a solution takes minutes."""
-LAYERS = 20
-"""About as many layers in depth as there are by default; only for the estimate of the size."""
+LAYERS_ABOVE, LAYERS_BELOW = 4, 6
+"""Fewest layers between the surface and the steel, and between the steel and the back."""
+LEAST_OHM_M, MOST_OHM_M = 1.0, 1e6
+"""Concrete has some 5 Ω·m where it is saturated with chlorides, and 10⁵ Ω·m where it is dry."""
+
+Extent = Annotated[float, Field(gt=0, le=1000)]
+Factor = Annotated[float, Field(gt=0, le=MOST_OHM_M)]
 
 TafelSlope = Annotated[float, Field(ge=0.02, le=1.0)]
 """V for ten times the current."""
@@ -27,9 +32,9 @@ CurrentDensity = Annotated[float, Field(gt=0, le=10)]
 class Bars(Strict):
     """The mat of reinforcing bars."""
 
-    spacing_m: Positive = 0.15
+    spacing_m: Annotated[float, Field(gt=0, le=5)] = 0.15
     """From bar to bar."""
-    diameter_m: Positive = 0.012
+    diameter_m: Annotated[float, Field(ge=0.001, le=0.1)] = 0.012
     directions: Literal[1, 2] = 2
     """1: parallel bars; 2: a mat of bars that cross."""
 
@@ -61,7 +66,7 @@ class ActiveSite(Strict):
 
     at_m: tuple[float, float]
     radius_m: Positive
-    resistivity_factor: Positive = 1.0
+    resistivity_factor: Factor = 1.0
     """Resistivity over the middle as a share of the sound concrete's, as chlorides leave it; it
     returns as a Gaussian with the standard deviation ``radius_m``."""
 
@@ -72,7 +77,7 @@ class MoistSpot(Strict):
     at_m: tuple[float, float]
     radius_m: Positive
     """Standard deviation of the Gaussian."""
-    resistivity_factor: Positive
+    resistivity_factor: Factor
     """Resistivity in the middle as a share of the sound concrete's."""
     oxygen_factor: Annotated[float, Field(ge=1e-4, le=10)] = 1.0
     """Limiting cathodic current in the middle as a share; water in the pores holds oxygen back. By
@@ -83,15 +88,15 @@ class MacroCellSpecimen(Strict):
     """Active and passive steel in concrete, whose potential field is solved for."""
 
     model: Literal["macro_cell"]
-    size_m: tuple[Positive, Positive] | None = None
+    size_m: tuple[Extent, Extent] | None = None
     """Extent of the concrete along u and v; the whole surface without it. Its edges are
     insulated, beyond them nothing can be read."""
     at_m: tuple[float, float] = (0.0, 0.0)
     """(u, v) of the middle of that extent."""
-    thickness_m: Positive = 0.20
-    cover_m: Positive
+    thickness_m: Annotated[float, Field(gt=0, le=10)] = 0.20
+    cover_m: Annotated[float, Field(gt=0, le=1)]
     """From the surface to the middle of the mat."""
-    resistivity_ohm_m: Positive = 200.0
+    resistivity_ohm_m: Annotated[float, Field(ge=LEAST_OHM_M, le=MOST_OHM_M)] = 200.0
     """Of the sound concrete at 20 °C."""
     temperature_c: Annotated[float, Field(ge=0, le=49)] = 22.2
     """Of the concrete, within the range that ASTM C876 corrects."""
@@ -115,6 +120,20 @@ class MacroCellSpecimen(Strict):
                 f"cover_m {self.cover_m:g} must leave the bars of {self.bars.diameter_m:g} m "
                 f"inside of thickness_m {self.thickness_m:g}"
             )
+        return self
+
+    @model_validator(mode="after")
+    def _still_concrete(self) -> MacroCellSpecimen:
+        spots: tuple[ActiveSite | MoistSpot, ...] = (*self.sites, *self.moisture)
+        for spot in spots:
+            there = self.resistivity_ohm_m * spot.resistivity_factor
+            # A factor of 0.01 may leave 1 Ω·m to the last digit.
+            if not LEAST_OHM_M * (1 - 1e-9) <= there <= MOST_OHM_M * (1 + 1e-9):
+                raise ValueError(
+                    f"resistivity_factor {spot.resistivity_factor:g} at {list(spot.at_m)} makes "
+                    f"{there:g} Ω·m of resistivity_ohm_m {self.resistivity_ohm_m:g}: concrete "
+                    f"has {LEAST_OHM_M:g} to {MOST_OHM_M:g}"
+                )
         return self
 
     @model_validator(mode="after")
@@ -147,11 +166,23 @@ def refuse_sites_outside(specimen: MacroCellSpecimen, size_m: tuple[float, float
                 )
 
 
+def layers(specimen: MacroCellSpecimen, resolution_m: float) -> tuple[int, int]:
+    """How many layers of nodes there are above the steel, twice as fine, and below it."""
+    above = math.ceil(2.0 * specimen.cover_m / resolution_m - 1e-9)
+    below = math.ceil((specimen.thickness_m - specimen.cover_m) / resolution_m - 1e-9)
+    return max(above, LAYERS_ABOVE), max(below, LAYERS_BELOW)
+
+
 def refuse_too_many_nodes(specimen: MacroCellSpecimen, size_m: tuple[float, float]) -> None:
     """ValueError where the extent ``size_m`` at the resolution is more than can be solved."""
-    nodes = LAYERS * size_m[0] * size_m[1] / specimen.resolution_m**2
-    if nodes > MOST_NODES:
-        least = math.sqrt(LAYERS * size_m[0] * size_m[1] / MOST_NODES)
+
+    def nodes(resolution_m: float) -> float:
+        return sum(layers(specimen, resolution_m)) * size_m[0] * size_m[1] / resolution_m**2
+
+    least = specimen.resolution_m
+    if nodes(least) > MOST_NODES:
+        while nodes(float(f"{least:.2g}")) > MOST_NODES and least < max(size_m):
+            least *= 1.01
         raise ValueError(
             f"{size_m[0]:g} m × {size_m[1]:g} m every {specimen.resolution_m:g} m are too many "
             f"nodes: give a resolution_m of at least {least:.2g}, or a smaller size_m"

@@ -11,7 +11,7 @@ from typing import Annotated, Literal, TypeAlias
 
 from pydantic import AfterValidator, BeforeValidator, Field
 
-from inspect_cli.schema.base import Positive, Strict, Triple
+from inspect_cli.schema.base import Strict
 
 Electrode = Literal[
     "CSE", "SCE", "Ag/AgCl sat. KCl", "Ag/AgCl 1 M KCl", "Ag/AgCl 0.1 M KCl"
@@ -24,6 +24,13 @@ LanguageCode = Literal["en", "de"]
 """The languages of a report."""
 
 FOUR_INCHES_M = 0.1016
+MOST_M = 1e8
+"""Coordinates beyond it are none: those of national grids reach 10 000 km, and at ten times that a
+double still tells 15 nm apart."""
+
+Coordinate = Annotated[float, Field(ge=-MOST_M, le=MOST_M)]
+Between = Annotated[float, Field(ge=1e-3, le=1e3)]
+"""From reading to reading, m: no electrode is finer than a millimetre."""
 
 
 def _pair(value: object) -> object:
@@ -35,7 +42,7 @@ def _pair(value: object) -> object:
     raise ValueError("give one number, or [between columns, between rows]")
 
 
-Spacings: TypeAlias = Positive | tuple[Positive, Positive]
+Spacings: TypeAlias = Between | tuple[Between, Between]
 """What a file may say."""
 
 
@@ -46,6 +53,9 @@ def _day(value: str) -> str:
         day = ""
     if day != value:
         raise ValueError(f"a date is written as 2025-03-31; found {value!r}")
+    # Somewhere on Earth it may be tomorrow already.
+    if datetime.date.fromisoformat(value) > datetime.date.today() + datetime.timedelta(days=1):
+        raise ValueError(f"{value} is in the future: give the day when the readings were taken")
     return value
 
 
@@ -54,9 +64,9 @@ class Georeference(Strict):
 
     longitude_deg: Annotated[float, Field(ge=-180, le=180)]
     latitude_deg: Annotated[float, Field(gt=-90, lt=90)]
-    height_m: float = 0.0
+    height_m: Annotated[float, Field(ge=-1000, le=10000)] = 0.0
     """Above the ellipsoid."""
-    heading_deg: float = 0.0
+    heading_deg: Annotated[float, Field(ge=-360, le=360)] = 0.0
     """Of the y axis, clockwise from true north; at 0, x points east."""
 
 
@@ -73,20 +83,20 @@ class SurveySettings(Strict):
     layout: Literal["grid", "list"] | None = None
     """Without it, the file's header tells."""
     spacing_m: Annotated[
-        tuple[Positive, Positive], BeforeValidator(_pair, json_schema_input_type=Spacings)
+        tuple[Between, Between], BeforeValidator(_pair, json_schema_input_type=Spacings)
     ] = (
         FOUR_INCHES_M,
         FOUR_INCHES_M,
     )
     """Of a grid: between its columns, between its rows."""
-    origin_m: tuple[float, float] = (0.0, 0.0)
+    origin_m: tuple[Coordinate, Coordinate] = (0.0, 0.0)
     """(u, v) of a grid's reading at the bottom left; added to the coordinates of a list."""
     coordinate_unit: LengthUnit = "m"
     """Of a list's coordinates where the header has no unit."""
     orientation: Literal["level", "upright"] = "level"
     """How a grid or a list without z lies in space: ``level`` like a deck, u along x and v along
     y, or ``upright`` like a wall, u along x and v along z."""
-    seen_from_m: Triple | None = None
+    seen_from_m: tuple[Coordinate, Coordinate, Coordinate] | None = None
     """A place before the surface, in the coordinates of a list with x, y and z."""
     georeference: Georeference | None = None
     """For exports to maps."""

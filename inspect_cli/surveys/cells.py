@@ -16,6 +16,9 @@ class Odd:
     what: str
 
 
+EXPECTED = "a grid of readings is expected, or a list with columns x, y and potential"
+"""What an empty table is told."""
+
 Value: TypeAlias = str | float | Odd
 """Text as it stands in the file, or a number that a workbook stores; "" for an empty cell."""
 

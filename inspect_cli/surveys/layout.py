@@ -94,7 +94,8 @@ def require_rows(cells: Cells, first: int) -> None:
     """Refuses a table of nothing but names."""
     if len(cells.rows) <= first:
         what = "holds no rows of numbers"
-        raise InputError(Problem(what, Location(cells.file, path=cells.sheet or "")))
+        where = Location(cells.file, path=cells.sheet or "")
+        raise InputError(Problem(what, where, "readings are expected below the names"))
 
 
 def labelled_by_text(cells: Cells, first: int) -> bool:

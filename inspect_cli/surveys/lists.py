@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from inspect_cli.errors import InputError, Location, Problem
-from inspect_cli.schema.survey import SurveySettings
+from inspect_cli.schema.survey import MOST_M, SurveySettings
 from inspect_cli.spatial.arrays import Points, Vector
 from inspect_cli.surveys.cells import Cells
 from inspect_cli.surveys.defusing import undefused
@@ -75,6 +75,9 @@ def list_of(cells: Cells, wanted: Wanted, settings: SurveySettings) -> ReadingLi
         if role in DIMENSIONS and not (role == "z" and _is_empty(cells, column))
     }
     reader.finish()
+    for role, column in columns.items():
+        if role in numbers and DIMENSIONS[role] == "length":
+            _refuse_far(cells, column, numbers[role].values, units[role])
     _require_one_surface(cells, columns)
     return ReadingList(
         cells,
@@ -139,6 +142,14 @@ def _numbers(reader: NumberReader, cells: Cells, column: int, unit: Unit, role: 
     may_lack = role in ("potential", "resistivity", "temperature")
     values = [row[column] for row in cells.rows[1:]]
     return reader.read(values, lambda k: cells.where(1 + k, column), unit, may_lack=may_lack)
+
+
+def _refuse_far(cells: Cells, column: int, values: Vector, unit: Unit) -> None:
+    far = np.flatnonzero(np.abs(values) > MOST_M / unit.factor)
+    if len(far):
+        k = int(far[0])
+        what = f"{values[k]:g} {unit.name} is no coordinate: beyond ±{MOST_M / 1000.0:,.0f} km"
+        raise cells.refused(1 + k, column, what, "correct the cell, or its column's unit")
 
 
 def _is_empty(cells: Cells, column: int) -> bool:

@@ -24,7 +24,15 @@ POSITIVE_MV = 150.0
 MOST_POSITIVE_MV = 250.0
 """More than any steel in concrete reads: a sign is missing, or was turned that was right."""
 VOLTS_BELOW, MILLIVOLTS_ABOVE = 2.0, 20.0
+MOST_LIKE_VOLTS = 3.0
+"""A survey that never leaves ±3 is one in volts, or none of steel: steel in concrete spreads over
+tens of millivolts. A little more than potentials in volts can be, since one of them may be wrong.
+"""
 MOST_DECIMALS = 6
+LEAST_OHM_M, MOST_OHM_M = 1e-3, 1e9
+"""A thousandth of wet concrete's resistivity, and a thousand times dry concrete's."""
+LEAST_C, MOST_C = 0.0, 49.0
+"""Where ASTM C876 corrects potentials for the temperature."""
 
 
 def potentials_mv(
@@ -87,30 +95,50 @@ def resistivities_ohm_m(raw: Vector, unit: Unit, where: Where) -> Vector:
     """Resistivities (n,) in Ω·m; NaN stays.
 
     Raises:
-        InputError: one is not positive; with its address.
+        InputError: one is not positive, or no concrete's; with its address.
     """
     wrong = raw <= 0.0
     if wrong.any():
         k = int(np.flatnonzero(wrong)[0])
         raise InputError(Problem(f"{raw[k]:g} is not a positive resistivity", where(k)))
     values: Vector = raw * unit.factor
+    odd = np.flatnonzero((values < LEAST_OHM_M) | (values > MOST_OHM_M))
+    if len(odd):
+        k = int(odd[0])
+        what = f"{raw[k]:g} {unit.name} is no resistivity of concrete"
+        raise InputError(Problem(what, where(k), "correct the cell, or state resistivity_unit"))
     return values
+
+
+def temperatures_c(raw: Vector, where: Where) -> Vector:
+    """Temperatures (n,) in °C; NaN stays.
+
+    Raises:
+        InputError: potentials cannot be corrected for one; with its address.
+    """
+    odd = np.flatnonzero((raw < LEAST_C) | (raw > MOST_C))
+    if len(odd):
+        k = int(odd[0])
+        what = f"{raw[k]:g} °C: potentials are corrected from {LEAST_C:g} to {MOST_C:g} °C"
+        raise InputError(Problem(what, where(k), "correct the cell, or empty it"))
+    return raw
 
 
 def _refuse_volts(raw: Vector, valid: Mask, stated: bool, where: Where) -> None:
     """Numbers in volts that are taken for millivolts, all of them or some.
 
-    Of readings in mV, those near zero are whole, or have no more decimals than the others and,
-    where the unit is only assumed, others between ``VOLTS_BELOW`` and ``MILLIVOLTS_ABOVE`` beside
-    them: potentials of one surface run on from place to place.
+    Readings in mV that are only assumed to be such do not all lie within ±``MOST_LIKE_VOLTS``.
+    Those near zero are whole, or have no more decimals than the others and, where the unit is only
+    assumed, others between ``VOLTS_BELOW`` and ``MILLIVOLTS_ABOVE`` beside them: potentials of one
+    surface run on from place to place.
     """
     magnitude = np.where(valid, np.abs(raw), 0.0)
     small = (magnitude > 0) & (magnitude < VOLTS_BELOW) & (raw != np.round(raw))
     large = magnitude > MILLIVOLTS_ABOVE
-    if not large.any() and not stated and small.any() and magnitude.max() < VOLTS_BELOW:
-        k = int(np.flatnonzero(small)[0])
-        what = f"{raw[k]:g}, like all others, looks like volts where millivolts are assumed"
-        hint = "state potential_unit: V, or potential_unit: mV if it is so"
+    if not stated and magnitude.max() <= MOST_LIKE_VOLTS:
+        k = int(np.flatnonzero(valid)[0])
+        what = f"{raw[k]:g}, like all others within ±{MOST_LIKE_VOLTS:g}, looks like volts"
+        hint = "state the unit: --unit V or --unit mV, or potential_unit in the settings"
         raise InputError(Problem(what, where(k), hint))
     if not large.any() or not small.any():
         return

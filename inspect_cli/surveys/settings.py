@@ -36,7 +36,7 @@ def read_settings(readings: Path, options: Mapping[str, object] | None = None) -
         InputError: an option does.
     """
     sidecar = sidecar_of(readings)
-    own = load_survey_settings(sidecar) if sidecar.is_file() else SurveySettings()
+    own = load_survey_settings(sidecar) if sidecar.exists() else SurveySettings()
     given = {key: value for key, value in (options or {}).items() if value is not None}
     if not given:
         return own

@@ -20,7 +20,7 @@ from inspect_cli.surveys.joining import joined_resistivity
 from inspect_cli.surveys.layout import layout_of
 from inspect_cli.surveys.lists import ReadingList, list_of
 from inspect_cli.surveys.planes import LEVEL, TOLERANCE_M, FittedPlane, fitted_plane
-from inspect_cli.surveys.plausible import potentials_mv, resistivities_ohm_m
+from inspect_cli.surveys.plausible import potentials_mv, resistivities_ohm_m, temperatures_c
 from inspect_cli.surveys.units import UNITS
 
 
@@ -157,7 +157,7 @@ def _survey_of_list(
         uv_m=uv_m,
         p_W=p_W,
         potential_mv=values,
-        temperature_c=rows.column("temperature"),
+        temperature_c=_own_temperature(rows),
         resistivity_ohm_m=np.full(len(values), np.nan) if resistivity is None else resistivity,
         valid=np.isfinite(values),
         why=tuple(potential.gaps.get(k, "") for k in range(len(values))),
@@ -188,6 +188,11 @@ def _own_resistivity(rows: ReadingList) -> Vector | None:
         return None
     unit = rows.units["resistivity"]
     return resistivities_ohm_m(raw, unit, lambda k: rows.where("resistivity", k))
+
+
+def _own_temperature(rows: ReadingList) -> Vector | None:
+    raw = rows.column("temperature")
+    return None if raw is None else temperatures_c(raw, lambda k: rows.where("temperature", k))
 
 
 def _second_file(

@@ -12,7 +12,7 @@ import csv
 import re
 
 from inspect_cli.errors import InputError, Location, Problem
-from inspect_cli.surveys.cells import Cells, Value
+from inspect_cli.surveys.cells import EXPECTED, Cells, Value
 
 LOOKED_AT = 50
 """Lines that are asked for the delimiter."""
@@ -29,7 +29,7 @@ def text_cells(data: bytes, file: str) -> Cells:
     lines = _decoded(data, file).replace("\r\n", "\n").replace("\r", "\n").split("\n")
     kept = [line for line in lines if line.strip() and not line.startswith("#")]
     if not kept:
-        raise InputError(Problem("the file is empty", Location(file)))
+        raise InputError(Problem("the file is empty", Location(file, 1, 1, "cell A1"), EXPECTED))
     delimiter = _delimiter(kept)
     numbers, starts, rows = _records(lines, delimiter, file)
     width = len(rows[0])
@@ -57,7 +57,7 @@ def _filled_part(rows: list[list[Value]], file: str) -> tuple[int, int, int, int
     """
     filled = [k for k, row in enumerate(rows) if any(str(cell).strip() for cell in row)]
     if not filled:
-        raise InputError(Problem("the file is empty", Location(file)))
+        raise InputError(Problem("the file is empty", Location(file, 1, 1, "cell A1"), EXPECTED))
     left, right = 0, len(rows[0])
     while not any(str(row[right - 1]).strip() for row in rows):
         right -= 1

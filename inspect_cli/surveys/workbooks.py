@@ -17,7 +17,7 @@ from contextlib import contextmanager
 from typing import Any
 
 from inspect_cli.errors import InputError, Location, Problem
-from inspect_cli.surveys.cells import Cells, Odd, Value, column_letters
+from inspect_cli.surveys.cells import EXPECTED, Cells, Odd, Value, column_letters
 
 MAX_BYTES = 500_000_000
 """Unpacked; a workbook of a hundred thousand readings has about 10 MB."""
@@ -92,9 +92,19 @@ def _chosen(book: Any, file: str, sheet: str | None) -> tuple[str, dict[Place, V
     filled = {s.title: cells for s in shown if (cells := _filled(s))}
     if len(filled) == 1:
         return next(iter(filled.items()))
-    hint = f"choose one with sheet: {', '.join(filled or names)}"
-    what = "several sheets hold something" if filled else "no visible sheet holds anything"
-    raise InputError(Problem(what, Location(file), hint))
+    if filled:
+        hint = f"choose one with sheet: {', '.join(filled)}"
+        raise InputError(Problem("several sheets hold something", Location(file), hint))
+    if len(names) == len(shown) == 1:
+        raise _empty(file, names[0])
+    hint = f"{EXPECTED}, on one of the sheets {', '.join(names)}"
+    raise InputError(Problem("no visible sheet holds anything", Location(file), hint))
+
+
+def _empty(file: str, sheet: str) -> InputError:
+    where = Location(file, path=f"{sheet}!A1")
+    hint = f"{EXPECTED}; a formula counts with the value that was stored with it"
+    return InputError(Problem("the sheet is empty", where, hint))
 
 
 def _filled(sheet: Any) -> dict[Place, Value]:
@@ -146,7 +156,7 @@ def _table(
     notes = {r for r, c in first.items() if str(found[r, c]).startswith("#")}
     kept = {place: value for place, value in found.items() if place[0] not in notes}
     if not kept:
-        raise InputError(Problem("the sheet is empty", Location(file, path=name)))
+        raise _empty(file, name)
     numbers = sorted({row for row, _ in kept})
     columns = [column for _, column in kept]
     left, right = min(columns), max(columns)

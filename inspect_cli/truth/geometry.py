@@ -7,11 +7,11 @@ file; those that are reliefs follow. A surface's place in this order is its numb
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 from inspect_cli.assessment.electrodes import STANDARD_C
-from inspect_cli.errors import InputError
+from inspect_cli.errors import InputError, Location, Problem
 from inspect_cli.schema.geometry import MeshShape, TrueShape
 from inspect_cli.schema.macro_cell import MacroCellSpecimen, refuse_unfit
 from inspect_cli.schema.plan import PlannedSurface
@@ -81,17 +81,29 @@ def structure_of(surfaces: Sequence[SurfaceTruth]) -> StructureTruth:
 def _specimen(
     name: str, model: Specimen | None, shape: TrueShape, relief: MeshRelief | None, root: Path
 ) -> SpecimenField | None:
-    """The field under a surface. Raises InputError where it does not fit the surface."""
+    """The field under a surface.
+
+    Raises InputError where it does not fit the surface or has no solution, at the path in the
+    mission that ``specimen_path`` gives.
+    """
     if model is None:
         return None
     extent = 2.0 * relief.row["half_size"][0] if relief is not None else (0.0, 0.0)
     patch = patch_of(shape, (float(extent[0]), float(extent[1])))
-    if isinstance(model, MacroCellSpecimen):
-        try:
+    here = Location("mission", path=specimen_path(name))
+    try:
+        if isinstance(model, MacroCellSpecimen):
             refuse_unfit(model, shape, patch.size_m)
-        except ValueError as error:
-            raise InputError(f"truth.structure.{name}.specimen: {error}") from error
-    return load_specimen(model, root, patch)
+        return load_specimen(model, root, patch)
+    except InputError as error:
+        raise InputError([replace(p, where=p.where or here) for p in error.problems]) from error
+    except ValueError as error:
+        raise InputError(Problem(str(error), here)) from error
+
+
+def specimen_path(surface: str) -> str:
+    """Where a mission states what is beneath a surface."""
+    return f"truth.structure.{surface}.specimen"
 
 
 def _there(

@@ -118,6 +118,20 @@ def test_a_folder_that_is_a_file_is_refused(mission: Path, tmp_path: Path) -> No
         fly(mission, out=tmp_path / "file")
 
 
+def test_a_folder_where_a_file_has_to_be_is_refused_first(mission: Path, tmp_path: Path) -> None:
+    (tmp_path / "run" / "readings.csv").mkdir(parents=True)
+    with pytest.raises(InputError, match=r"readings\.csv is a folder where the flight"):
+        fly(mission, out=tmp_path / "run")
+    flown = fly(mission, seed=1).folder
+    out = tmp_path / "out"
+    for name in ("report.html", "report.pdf", "readings.ifc", "film.mp4"):
+        (out / name).mkdir(parents=True)
+        with pytest.raises(InputError, match="is a folder where the report writes a file"):
+            report([flown], out=out)
+        assert list(out.iterdir()) == [out / name]
+        (out / name).rmdir()
+
+
 def test_reports_of_several_missions_keep_apart(mission: Path, tmp_path: Path) -> None:
     first = fly(mission, seed=1).folder
     mission.write_text(MISSION.replace("name: one", "name: two"))

@@ -159,6 +159,11 @@ def test_a_sidecar_says_what_the_file_does_not(small: Path, tmp_path: Path) -> N
         (["--spacing-m", "1,5"], "decimal points"),
         (["--spacing-m", "-1"], "spacing_m"),
         (["--export", "dxf"], "dxf"),
+        (["--export", ","], "--export names nothing"),
+        (["--export", ""], "choices: geojson, ifc"),
+        (["--resistivity-unit", "ohm_m"], "there are no resistivities"),
+        (["--coordinate-unit", "mm"], "a grid has no coordinates"),
+        (["--resistivity", ""], "a path is empty"),
         (["--temperature-c", "55"], "55"),
         (["--resistivity", "nowhere.txt"], "nowhere.txt"),
         (["some/run"], "--readings"),
@@ -218,3 +223,81 @@ def test_a_file_is_no_folder(
     out = tmp_path / "file" / beneath
     assert cli.run(["report", "--readings", str(small), "--out", str(out)]) == 2
     assert "cannot be a folder" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize(
+    "name",
+    [
+        *("metrics.json", "readings.csv", "report.html", "report.pdf"),
+        *("readings.geojson", "readings.ifc"),
+    ],
+)
+@pytest.mark.parametrize("wanted", [[], ["--pdf", "--export", "geojson,ifc"]])
+def test_a_folder_where_a_file_has_to_be_is_refused_first(
+    name: str,
+    wanted: list[str],
+    small: Path,
+    tmp_path: Path,
+    capsys: pytest.CaptureFixture[str],
+) -> None:
+    out = tmp_path / "out"
+    (out / name).mkdir(parents=True)
+    small.write_text("wet", encoding="utf-8")  # it is not even read
+    assert cli.run(["report", "--readings", str(small), "--out", str(out), *wanted]) == 2
+    told = " ".join(capsys.readouterr().err.split())
+    assert f"{out / name} is a folder" in told
+    assert list(out.iterdir()) == [out / name]
+
+
+@pytest.mark.parametrize("option", ["--out", "--readings"])
+def test_an_empty_path_is_not_this_folder(
+    option: str,
+    small: Path,
+    monkeypatch: pytest.MonkeyPatch,
+    capsys: pytest.CaptureFixture[str],
+) -> None:
+    monkeypatch.chdir(small.parent)
+    assert cli.run(["report", "--readings", str(small), option, ""]) == 2
+    assert "a path is empty" in capsys.readouterr().err
+    assert list(small.parent.iterdir()) == [small]
+
+
+def test_a_list_has_no_spacing(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    file = tmp_path / "list.csv"
+    file.write_text("x,y,E\n0,0,-300\n1,0,-310\n", encoding="utf-8")
+    asked = ["report", "--readings", str(file), "--out", str(tmp_path / "out")]
+    assert cli.run([*asked, "--spacing-m", "1"]) == 2
+    assert "a list has coordinates of its own" in capsys.readouterr().err
+    assert cli.run(asked) == 0
+
+
+def test_the_unit_of_what_may_be_volts_has_to_be_stated(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    file = tmp_path / "few.csv"
+    file.write_text("A,B\n-0.35,-1.8\n-0.3,-0.2\n", encoding="utf-8")
+    asked = ["report", "--readings", str(file), "--out", str(tmp_path / "out")]
+    assert cli.run(asked) == 2
+    said = " ".join(capsys.readouterr().err.split())
+    assert f"{file}:2:1: cell A2: -0.35, like all others within ±3, looks like volts" in said
+    assert "state the unit: --unit V or --unit mV" in said
+    for unit, least in (("V", -1800.0), ("mV", -1.8)):
+        found = reported(tmp_path / unit, "--readings", str(file), "--unit", unit)
+        assert surface_of(found)["potential"]["min_mv"] == least
+
+
+@pytest.mark.parametrize("name", [".", ".."])
+def test_a_folder_is_no_file_of_readings(
+    name: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    assert cli.run(["report", "--readings", name]) == 2
+    assert f"{name} is a folder" in capsys.readouterr().err
+
+
+def test_settings_that_are_a_folder_are_not_passed_over(
+    small: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    (tmp_path / "deck.survey.yaml").mkdir()
+    assert cli.run(["report", "--readings", str(small), "--out", str(tmp_path / "out")]) == 2
+    assert "deck.survey.yaml" in capsys.readouterr().err

@@ -42,7 +42,7 @@ PLACE = "truth.structure.wall.specimen"
         ),
         (
             "cover_m: 0.03, size_m: [20, 20]",
-            "every 0.02 m are too many nodes: give a resolution_m of at least 0.073",
+            "every 0.02 m are too many nodes: give a resolution_m of at least 0.052",
         ),
         (
             "cover_m: 0.03, active: {rest_v: -0.6, current_uapcm2: 1, anodic_slope_vpdec: 0.06,"
@@ -53,6 +53,33 @@ PLACE = "truth.structure.wall.specimen"
             "cover_m: 0.03, active: {rest_v: -0.6, current_apm2: 1, anodic_slope_vpdec: 0.001,"
             " cathodic_slope_vpdec: 0.1}",
             f"{PLACE}.active.anodic_slope_vpdec: must be at least 0.02; found 0.001",
+        ),
+        (
+            "cover_m: 0.03, resistivity_ohm_m: 1e-9",
+            f"m.yaml:25:71: {PLACE}.resistivity_ohm_m: must be at least 1; found 1e-09",
+        ),
+        (
+            "cover_m: 0.03, resistivity_ohm_m: 1e7",
+            f"{PLACE}.resistivity_ohm_m: must be at most 1e+06",
+        ),
+        ("cover_m: 1.2, thickness_m: 3", f"{PLACE}.cover_m: must be at most 1; found 1.2"),
+        ("cover_m: 0.03, thickness_m: 1e9", f"{PLACE}.thickness_m: must be at most 10; found"),
+        (
+            "cover_m: 0.03, bars: {diameter_m: 1e-9}",
+            f"{PLACE}.bars.diameter_m: must be at least 0.001",
+        ),
+        (
+            "cover_m: 0.03, sites: [{at_m: [0, 0], radius_m: 0.1, resistivity_factor: 1e-9}]",
+            f"{PLACE}: resistivity_factor 1e-09 at [0.0, 0.0] makes 2e-07 Ω·m of resistivity_ohm_m",
+        ),
+        (
+            "cover_m: 0.03, resistivity_ohm_m: 1e3,"
+            " moisture: [{at_m: [0, 0], radius_m: 0.1, resistivity_factor: 1e4}]",
+            "makes 1e+07 Ω·m of resistivity_ohm_m 1000: concrete has 1 to 1e+06",
+        ),
+        (
+            "cover_m: 0.03, thickness_m: 10, size_m: [0.3, 0.3], resolution_m: 0.002",
+            "0.3 m × 0.3 m every 0.002 m are too many nodes: give a resolution_m of at least",
         ),
         ("cover_m: 0.03, spots: []", f"{PLACE}.spots: unknown key 'spots'"),
     ],

@@ -108,7 +108,7 @@ def test_gaps_are_kept_with_their_reason(tmp_path: Path) -> None:
     assert survey.why[:3] == ("", "the cell is empty", "the file says '-'")
     assert survey.why[3:6] == ("the file says 'n/a'", "the file says 'NaN'", "the file says 'nan'")
     assert np.isnan(survey.potential_mv[1:6]).all()
-    trailing = read(tmp_path, "-1\t-2\t\n-1\t-2\t-3\n")
+    trailing = read(tmp_path, "-1\t-2\t\n-1\t-2\t-30\n")
     assert trailing.valid.tolist() == [True, True, False, True, True, True]
 
 
@@ -131,9 +131,12 @@ def test_gaps_are_kept_with_their_reason(tmp_path: Path) -> None:
         ("row,A,A\n1,-1,-2\n", "s.csv:1:7: cell C1: the name 'A' a second time"),
         ("row,A,B\n1,-1,-2\n1,-3,-4\n", "s.csv:3:1: cell A3: the name '1' a second time"),
         ("row,A,B\n", "s.csv: holds no rows of numbers"),
-        ("", "s.csv: the file is empty"),
-        ("\n# nothing\n", "s.csv: the file is empty"),
-        (",,\n,,\n", "s.csv: the file is empty"),
+        (
+            "",
+            "s.csv:1:1: cell A1: the file is empty\n    a grid of readings is expected, or a list",
+        ),
+        ("\n# nothing\n", "s.csv:1:1: cell A1: the file is empty"),
+        (",,\n,,\n", "s.csv:1:1: cell A1: the file is empty"),
         ('"a,-1\n', "s.csv:1: is not CSV"),
         (b"\x89PNG\r\n\x1a\n\x00\x00\x01", "cannot be read as a table"),
         (b"\xff\xfe\x00", "s.csv: cannot be read as a table"),
@@ -166,7 +169,8 @@ def test_what_is_uncertain_is_refused_by_its_address(
             {"potential_unit": "mV"},
             "s.csv:2:1: cell A2: -0.3 looks like V",
         ),
-        ("-0.35,-0.34\n-0.3,-0.3\n", {}, "s.csv:1:1: cell A1: -0.35, like all others, looks like"),
+        ("-0.35,-0.34\n-0.3,-0.3\n", {}, "s.csv:1:1: cell A1: -0.35, like all others within"),
+        ("-1,-2\n-,3\n", {}, "s.csv:1:1: cell A1: -1, like all others within ±3, looks like volts"),
         ("-350,-340\n-3000,-320\n", {}, "s.csv:2:1: cell A2: -3000 mV is no half-cell potential"),
         (
             "-0.35,-0.34\n-350,-0.3\n",
@@ -184,7 +188,7 @@ def test_implausible_potentials_are_refused(
 
 def test_hints_name_the_setting(tmp_path: Path) -> None:
     assert "sign: inverted" in refusal(tmp_path, "350,340\n300,-\n")
-    assert "potential_unit: V" in refusal(tmp_path, "-0.35,-0.34\n-0.3,-0.3\n")
+    assert "--unit V or --unit mV" in refusal(tmp_path, "-0.35,-0.34\n-0.3,-0.3\n")
     assert "potential_unit: mV" in refusal(tmp_path, "-350 -340\n", potential_unit="V")
 
 

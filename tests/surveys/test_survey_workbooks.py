@@ -158,28 +158,31 @@ def test_a_column_of_formulas_does_not_vanish(tmp_path: Path) -> None:
         [[*row, extra] for row, extra in zip([[-1, -2]] * 2, ["=1"] * 2, strict=True)],
     )
     assert "s.xlsx: Deck!C1: a formula without a stored value" in refusal(path)
-    assert "holds anything" in refusal(book(tmp_path / "t.xlsx", rows))
+    said = refusal(book(tmp_path / "t.xlsx", rows))
+    assert "t.xlsx: Deck!A1: the sheet is empty" in said
+    assert "a grid of readings is expected, or a list with columns x, y and potential" in said
+    assert "a formula counts with the value that was stored with it" in said
 
 
 def test_sheets_are_chosen_by_name(tmp_path: Path) -> None:
     def second(sheet: Any) -> None:
         other = sheet.parent.create_sheet("Soffit")
-        other.append([-1, -2])
+        other.append([-10, -20])
         sheet.parent.create_sheet("Empty")
         hidden = sheet.parent.create_sheet("Old")
-        hidden.append([-3, -4])
+        hidden.append([-30, -40])
         hidden.sheet_state = "hidden"
 
     path = book(tmp_path / "s.xlsx", change=second)
     said = refusal(path)
     assert "s.xlsx: several sheets hold something" in said
     assert "choose one with sheet: Deck, Soffit\n" in said + "\n"
-    assert read(path, sheet="Soffit").potential_mv.tolist() == [-1, -2]
-    assert read(path, sheet="Old").potential_mv.tolist() == [-3, -4]
+    assert read(path, sheet="Soffit").potential_mv.tolist() == [-10, -20]
+    assert read(path, sheet="Old").potential_mv.tolist() == [-30, -40]
     said = refusal(path, sheet="deck")
     assert "s.xlsx: has no sheet 'deck'" in said
     assert "choices: Deck, Soffit, Empty, Old" in said
-    assert "s.xlsx: Empty: the sheet is empty" in refusal(path, sheet="Empty")
+    assert "s.xlsx: Empty!A1: the sheet is empty" in refusal(path, sheet="Empty")
 
 
 def test_a_hidden_sheet_is_not_taken_unasked(tmp_path: Path) -> None:

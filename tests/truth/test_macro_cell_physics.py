@@ -24,7 +24,7 @@ from inspect_cli.truth.macro_cell.steel import Steel, branches
 
 STEEP = Kinetics(rest_v=-0.65, current_apm2=5.0, anodic_slope_vpdec=0.02, cathodic_slope_vpdec=0.02)
 EXTREMES: list[dict[str, Any]] = [
-    {"resistivity_ohm_m": 0.5},
+    {"resistivity_ohm_m": 1.0},
     {"resistivity_ohm_m": 1e6},
     {"sites": (ActiveSite(at_m=(0.013, -0.007), radius_m=0.025),)},
     {"sites": (ActiveSite(at_m=(0.0, 0.0), radius_m=0.4, resistivity_factor=0.01),)},
@@ -37,6 +37,12 @@ EXTREMES: list[dict[str, Any]] = [
     {"cover_m": 0.0061, "thickness_m": 0.013},
     {"cover_m": 0.15, "thickness_m": 2.0},
 ]
+
+
+def test_spots_that_leave_no_concrete_are_refused() -> None:
+    spot = MoistSpot(at_m=(0.0, 0.0), radius_m=0.3, resistivity_factor=0.01)
+    with pytest.raises(InputError, match=r"leave resistivities of 1\.\d+e-08 to"):
+        solved(moisture=(spot,) * 5)
 
 
 @pytest.mark.parametrize("entries", [{}, *EXTREMES])

@@ -22,7 +22,15 @@ from typing import Final
 import numpy as np
 
 from inspect_cli.assessment.electrodes import COEFFICIENT_V_PER_C, STANDARD_C
-from inspect_cli.schema.macro_cell import ActiveSite, MacroCellSpecimen, MoistSpot
+from inspect_cli.errors import InputError
+from inspect_cli.schema.macro_cell import (
+    LEAST_OHM_M,
+    MOST_OHM_M,
+    ActiveSite,
+    MacroCellSpecimen,
+    MoistSpot,
+    layers,
+)
 from inspect_cli.spatial.arrays import Matrix, Vector
 from inspect_cli.truth.macro_cell.concrete import Concrete, box_widths, concrete_of
 from inspect_cli.truth.macro_cell.mat import constriction_m, steel_share
@@ -36,9 +44,8 @@ KELVIN: Final = 273.15
 RESISTIVITY_C: Final = 20.0
 ACTIVATION_JPMOL: Final = 25e3
 GAS_JPMOLK: Final = 8.314462618
-ABOVE_LEAST: Final = 4
-"""Fewest cells between the surface and the steel; below it, fewest to the back."""
-BELOW_LEAST: Final = 6
+BEYOND: Final = 1e3
+"""How far spots that lie over each other may take the resistivity beyond what concrete has."""
 LEAST_SHARE: Final = 1e-12
 """Of a node's steel that is active, and that is passive: no kind of steel is nowhere, so that no
 equation is empty."""
@@ -68,6 +75,7 @@ def solve_cell(model: MacroCellSpecimen, patch: Patch) -> MacroCell:
     u, v = surface_nodes(model, patch)
     d, steel_index = depth_nodes(model)
     resistivity = resistivity_at(model, u, v)
+    _refuse_extremes(resistivity)
     concrete = concrete_of(patch, u, v, d, steel_index, resistivity)
     share, reach = steel_share(model.bars), constriction_m(model.bars)
     active = np.clip(active_shares(model, u, v), LEAST_SHARE, 1.0 - LEAST_SHARE)
@@ -78,6 +86,15 @@ def solve_cell(model: MacroCellSpecimen, patch: Patch) -> MacroCell:
         oxygen *= 1.0 + (spot.oxygen_factor - 1.0) * _bell(u, v, spot.at_m, spot.radius_m)
     steel = Steel((model.active, model.passive), oxygen)
     return MacroCell(concrete, joint, steel, solve_potentials(concrete, joint, steel))
+
+
+def _refuse_extremes(resistivity: Matrix) -> None:
+    low, high = float(resistivity.min()), float(resistivity.max())
+    if not LEAST_OHM_M / BEYOND <= low <= high <= MOST_OHM_M * BEYOND:
+        raise InputError(
+            f"sites and moisture together leave resistivities of {low:g} to {high:g} Ω·m",
+            hint="give those that lie over each other factors nearer to 1",
+        )
 
 
 def surface_reading(model: MacroCellSpecimen, patch: Patch) -> Matrix:
@@ -101,9 +118,7 @@ def surface_nodes(
 
 def depth_nodes(model: MacroCellSpecimen) -> tuple[Vector, int]:
     """Nodes in depth, m, and the index of the steel's: even above it, even below it."""
-    above = max(math.ceil(2.0 * model.cover_m / model.resolution_m - 1e-9), ABOVE_LEAST)
-    rest = model.thickness_m - model.cover_m
-    below = max(math.ceil(rest / model.resolution_m - 1e-9), BELOW_LEAST)
+    above, below = layers(model, model.resolution_m)
     over = np.linspace(0.0, model.cover_m, above + 1)
     under = np.linspace(model.cover_m, model.thickness_m, below + 1)
     return np.concatenate([over, under[1:]]), above
