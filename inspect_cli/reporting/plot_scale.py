@@ -42,16 +42,18 @@ def has_equal_scales(layout: Json) -> bool:
     return False
 
 
-def scale_for(width_m: float, height_m: float, room_mm: tuple[float, float]) -> MapScale:
-    """The largest round scale at which the drawing fits."""
-    for denominator in sorted(SCALES):
+def scale_for(
+    width_m: float, height_m: float, room_mm: tuple[float, float], least: float = 1.0
+) -> MapScale:
+    """The largest round scale at which the drawing fits, its denominator ``least`` or more."""
+    for denominator in sorted(n for n in SCALES if n >= least):
         scale = MapScale(float(denominator))
         fits = (
             scale.millimetres(width_m) <= room_mm[0] and scale.millimetres(height_m) <= room_mm[1]
         )
         if fits:
             return scale
-    return MapScale(max(1e3 * width_m / room_mm[0], 1e3 * height_m / room_mm[1]))
+    return MapScale(max(least, 1e3 * width_m / room_mm[0], 1e3 * height_m / room_mm[1]))
 
 
 def bar_length_m(scale: MapScale, width_mm: float) -> float:

@@ -81,11 +81,16 @@ class Margins:
 
 
 def draw(
-    figure: Figure, language: Language, width_mm: float, max_height_mm: float = 200.0
+    figure: Figure,
+    language: Language,
+    width_mm: float,
+    max_height_mm: float = 200.0,
+    least_denominator: float = 1.0,
 ) -> Plot | None:
     """The figure as a drawing of this width; None if it has three dimensions.
 
-    The same figure, language and size give the same bytes.
+    The same figure, language and size give the same bytes. A map is drawn at the largest round
+    scale that fits, at 1 : ``least_denominator`` or smaller.
 
     Raises:
         ValueError: a trace, a mode or a shape is of a kind that no drawing is known for.
@@ -102,7 +107,7 @@ def draw(
         warnings.filterwarnings("ignore", message=".*missing from.*font")
         drawing = _Drawing(layout, traces, language, width_mm)
         height_mm = min(max_height_mm, MM_PER_PX * figure.height_px)
-        return drawing.finish(height_mm, max_height_mm)
+        return drawing.finish(height_mm, max_height_mm, least_denominator)
 
 
 def _normal(trace: Json, layout: Json) -> Json:
@@ -176,7 +181,7 @@ class _Drawing:
             case "heatmap":
                 heatmap(ax, trace, self.layout, x, y)
 
-    def finish(self, height_mm: float, max_height_mm: float) -> Plot:
+    def finish(self, height_mm: float, max_height_mm: float, least_denominator: float) -> Plot:
         """Lay the sheet out, to scale if it is a map, and write it."""
         legend_mm = 0.0
         if self.legend is not None:
@@ -189,7 +194,9 @@ class _Drawing:
             around = margins.top + margins.bottom + legend_mm + below_mm
             wide, high = self.width_mm - margins.left - margins.right, height_mm - around
             if is_map:
-                scale, wide, high = self._to_scale(wide, max_height_mm - around)
+                scale, wide, high = self._to_scale(
+                    (wide, max_height_mm - around), least_denominator
+                )
                 height_mm = high + around
             self._place(margins, wide, high, below_mm, height_mm)
             if self.legend is not None:
@@ -202,11 +209,13 @@ class _Drawing:
             draw_scale_bar(self.sheet, scale, (margins.left, 1.0), size, self.language)
         return Plot(self._written(), self.width_mm, height_mm, scale)
 
-    def _to_scale(self, wide: float, high: float) -> tuple[MapScale, float, float]:
+    def _to_scale(
+        self, room_mm: tuple[float, float], least: float
+    ) -> tuple[MapScale, float, float]:
         """The scale, and the exact size of the frame at it."""
         (x, y), _ = next(iter(self.panels.items()))
         (left, right), (bottom, top) = (limits(self.axes[name], self.axes) for name in (x, y))
-        scale = scale_for(right - left, top - bottom, (wide, high))
+        scale = scale_for(right - left, top - bottom, room_mm, least)
         return scale, scale.millimetres(right - left), scale.millimetres(top - bottom)
 
     def _place(

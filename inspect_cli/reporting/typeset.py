@@ -213,11 +213,16 @@ class _Paper:
                 yield {"is": "figures", "columns": 1, "figures": [self._figure(figure, PAGE_MM)]}
         for pair in pairs:
             width = HALF_PAGE_MM if len(pair) == 2 else PAGE_MM
-            drawn = [self._figure(figure, width) for figure in pair]
+            drawn = [self._figure(figure, width, self._common(pair, width)) for figure in pair]
             yield {"is": "figures", "columns": len(pair), "figures": drawn}
 
-    def _figure(self, figure: Figure, width_mm: float) -> Json:
-        plot = draw(figure, self.language, width_mm)
+    def _common(self, pair: Sequence[Figure], width_mm: float) -> float:
+        """The scale, 1 to this, at which all maps beside each other fit."""
+        plots = [draw(f, self.language, width_mm) for f in pair if has_equal_scales(f.layout)]
+        return max((p.scale.denominator for p in plots if p and p.scale), default=1.0)
+
+    def _figure(self, figure: Figure, width_mm: float, least_denominator: float = 1.0) -> Json:
+        plot = draw(figure, self.language, width_mm, least_denominator=least_denominator)
         data = self._drawing(figure.caption, figure.description)
         if plot is None:
             return {**data, "note": self._runs(SCREEN_ONLY)}

@@ -31,9 +31,10 @@ from inspect_cli.reporting.content import (
     Section,
     Table,
 )
-from inspect_cli.reporting.figure import Figure, words
+from inspect_cli.reporting.figure import Figure, Json, words
 from inspect_cli.reporting.html import html
 from inspect_cli.reporting.language import Language, language
+from inspect_cli.reporting.plots import draw
 from inspect_cli.reporting.printable import breakable, printable, shortened
 from inspect_cli.reporting.text import (
     NOTHING,
@@ -51,7 +52,7 @@ from inspect_cli.reporting.text import (
     strong,
     together,
 )
-from inspect_cli.reporting.typeset import pdf, typeset_files, write_pdf
+from inspect_cli.reporting.typeset import HALF_PAGE_MM, pdf, typeset_files, write_pdf
 
 ENGLISH = language("en")
 GERMAN = Language("de", ",", {"{n} readings are valid.": "{n} Messwerte sind gültig."})
@@ -357,3 +358,31 @@ def test_a_verdict_has_one_sign() -> None:
     table = Table("", [Column("A"), Column("B")], [chips])
     text = text_of(pdf(document(blocks=[table]), ENGLISH))
     assert (text.count("✓"), text.count("✗")) == (1, 1)
+
+
+def test_maps_beside_each_other_have_one_scale() -> None:
+    """The second has a longer legend, so that alone it fits at a smaller scale than the first."""
+    frame: Json = {
+        "xaxis": {"range": [0.0, 0.9]},
+        "yaxis": {"range": [0.0, 3.4], "scaleanchor": "x"},
+        "showlegend": True,
+    }
+    names = ["a"], [f"{n} {12 * 'long '}" for n in range(9)]
+    maps = [
+        Figure(
+            f"m{k}",
+            "",
+            "",
+            [{"type": "scatter", "name": n, "x": [0, 1], "y": [0, 3]} for n in own],
+            frame,
+            400,
+            slope=3.4 / 0.9,
+        )
+        for k, own in enumerate(names)
+    ]
+    alone = [draw(m, ENGLISH, HALF_PAGE_MM) for m in maps]
+    assert len({plot.scale for plot in alone if plot}) == 2
+    made = text_of(pdf(document(blocks=[Figures(tuple(maps), side_by_side=True)]), ENGLISH))
+    scales = re.findall(r"Scale 1 : (\d+)", made)
+    assert len(scales) == 2
+    assert scales[0] == scales[1]
