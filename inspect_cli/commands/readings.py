@@ -196,7 +196,7 @@ def points_of(
                 "potential_mv": mv,
                 "potential_sd_mv": sd_mv if valid else None,
                 "resistivity_ohm_m": ohm_m,
-                "contact_s": 0.0,
+                "contact_s": None,
                 "astm_class": name_of(ASTM_CLASSES, astm),
                 "corrosion": name_of(VERDICTS, verdict),
             }

@@ -152,7 +152,6 @@ def _certainty(sure: Sureness | None) -> Text:
 
 def _touched(points: Sequence[ReadPoint]) -> list[Filled]:
     found = [p.point for p in points]
-    timed = any(point.contact_s > 0.0 for point in found)
     return [
         (
             Column(say("Probe force"), "N", numeric=True),
@@ -160,7 +159,7 @@ def _touched(points: Sequence[ReadPoint]) -> list[Filled]:
         ),
         (
             Column(say("Contact"), "s", numeric=True),
-            [number(point.contact_s if timed else None, 1) for point in found],
+            [number(point.contact_s, 1) for point in found],
         ),
     ]
 

@@ -61,7 +61,8 @@ class PointResult(Strict):
     resistance_ohm: float | None
     resistivity_ohm_m: float | None
     probe_force_n: float | None
-    contact_s: float
+    contact_s: float | None
+    """None where nobody timed it, as of readings by hand."""
     astm_class: AstmClass | None
     corrosion: Corrosion | None
     """The combined verdict of potential and resistance, by the rule that the report states."""

@@ -68,7 +68,7 @@ def _point(k: int, label: str, uv_m: list[float], potential_v: float, rho: float
         resistance_ohm=None,
         resistivity_ohm_m=known,
         probe_force_n=None,
-        contact_s=0.0,
+        contact_s=None,
         astm_class=astm_class(potential_v) if valid else None,
         corrosion=combined_verdict(potential_v, known) if valid else None,
     )
