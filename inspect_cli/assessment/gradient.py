@@ -34,8 +34,8 @@ RISE_MV: Final = 100.0
 WITHIN_M: Final = 1.0
 LEAST_DEPTH_MV: Final = 20.0
 """Two electrodes may differ by as much at the same place (ASTM C876)."""
-ROUND_OFF_M: Final = 1e-9
-"""Ten steps of a tenth are a metre."""
+REACH_M: Final = WITHIN_M + 1e-9
+"""For round-off: ten steps of a tenth are a metre."""
 
 
 @dataclass(frozen=True)
@@ -80,7 +80,8 @@ def minima_of(uv_m: Points, potential_v: Vector, pairs: NDArray[np.intp]) -> Min
     depth = hollow_depths(mv, valid[np.argsort(mv[valid], kind="stable")], pairs)
     lowest = np.flatnonzero((depth >= LEAST_DEPTH_MV) & (mv < 0.0))
     by_u = valid[np.argsort(uv_m[valid, 0], kind="stable")]
-    rise, within = rises(uv_m[by_u], mv[by_u], uv_m[lowest], mv[lowest])
+    first = np.searchsorted(uv_m[by_u, 0], uv_m[lowest, 0] - REACH_M)
+    rise, within = rises(uv_m[by_u], mv[by_u], uv_m[lowest], mv[lowest], first)
     steepest = np.lexsort((mv[lowest], -np.nan_to_num(rise, nan=-1.0)))
     return Minima(lowest[steepest], rise[steepest], within[steepest])
 
@@ -167,25 +168,26 @@ def bottom_of(bottom: NDArray[np.int64], i: int) -> int:
 
 
 @kernel
-def rises(uv: Points, mv: Vector, low_uv: Points, low_mv: Vector) -> tuple[Vector, Vector]:
+def rises(
+    uv: Points, mv: Vector, low_uv: Points, low_mv: Vector, first: NDArray[np.intp]
+) -> tuple[Vector, Vector]:
     """The rise (k,), mV, within 1 m of each minimum, and the distance (k,), m, of 100 mV more.
 
     Args:
         uv: places (n, 2), m, by ascending u.
         mv: their potentials (n,).
         low_uv: minima (k, 2), m; ``low_mv`` (k,) theirs.
+        first: the first place within reach along u of each (k,).
     """
     rise, within = np.full(len(low_mv), np.nan), np.full(len(low_mv), np.nan)
-    reach = WITHIN_M + ROUND_OFF_M
     u = uv[:, 0]
     for k in range(len(low_mv)):
-        first = np.searchsorted(u, low_uv[k, 0] - reach)
-        for j in range(first, len(mv)):
-            if u[j] > low_uv[k, 0] + reach:
+        for j in range(first[k], len(mv)):
+            if u[j] > low_uv[k, 0] + REACH_M:
                 break
             du, dv = u[j] - low_uv[k, 0], uv[j, 1] - low_uv[k, 1]
             square = du * du + dv * dv
-            if square > reach * reach or square == 0.0:
+            if square > REACH_M * REACH_M or square == 0.0:
                 continue
             more = mv[j] - low_mv[k]
             if not rise[k] >= more:
