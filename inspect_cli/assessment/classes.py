@@ -40,7 +40,7 @@ MV_DECIMALS: Final = 6
 COMBINED_RULE = (
     "This rule is the project's own, not a standard's: the potential says how probable corrosion "
     "is, the resistivity how fast it can be. "
-    "None: the potential is above −200 mV (CSE), ASTM C876's passive class. "
+    "Not indicated: the potential is above −200 mV (CSE), ASTM C876's passive class. "
     "Active: the potential is below −350 mV, ASTM C876's active class, and the resistivity is "
     "at most 100 Ω·m, where Langford & Broomfield expect a high corrosion rate and RILEM "
     "TC 154-EMC a high corrosion risk. "

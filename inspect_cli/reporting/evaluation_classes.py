@@ -94,6 +94,8 @@ def _of_the_area(summary: SurfaceAssessment) -> Text:
 
 def verdict_blocks(assessed: Assessed) -> list[Block]:
     """The combined verdict: its table, with the points that it names, and its rule."""
+    if assessed.summary.resistivity_known == 0:
+        return []
     labels = assessed.readings.labels
     rows: list[list[Text]] = []
     for code, share in enumerate(assessed.summary.verdicts):

@@ -58,7 +58,8 @@ def points_table(points: Sequence[ReadPoint], evaluated: Sequence[Evaluated]) ->
             say("Readings by point."),
             say(
                 "u(E) is the standard uncertainty of the potential; certainty is the probability "
-                "of the class, with a question mark where it is below 95 %."
+                "that the true potential at that place is in the class, with a question mark where "
+                "it is below 95 %. It does not tell how sure it is that steel corrodes."
             )
             if sure
             else "",
@@ -125,6 +126,7 @@ def _read(points: Sequence[ReadPoint]) -> list[Filled]:
 
 def _judged(points: Sequence[ReadPoint], sure: Mapping[int, Sureness]) -> list[Filled]:
     each = [sure.get(k) for k in range(len(points))]
+    measured = any(p.point.resistivity_ohm_m is not None for p in points)
     return [
         (
             Column("u(E)", "mV", numeric=True),
@@ -134,7 +136,7 @@ def _judged(points: Sequence[ReadPoint], sure: Mapping[int, Sureness]) -> list[F
         (Column(say("Certainty"), numeric=True), [_certainty(s) for s in each]),
         (
             Column(say("Corrosion"), say("combined")),
-            [class_chip(p.point.corrosion) for p in points],
+            [class_chip(p.point.corrosion if measured else None) for p in points],
         ),
     ]
 

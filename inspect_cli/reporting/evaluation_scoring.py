@@ -5,7 +5,7 @@ from __future__ import annotations
 from inspect_cli.assessment.classes import SUSTAINS_CORROSION_OHM_M
 from inspect_cli.reporting.content import Block, Column, Heading, Paragraph, Table
 from inspect_cli.reporting.evaluation_classes import area, percent
-from inspect_cli.reporting.recorded import recorded
+from inspect_cli.reporting.tables import class_word
 from inspect_cli.reporting.text import NOTHING, Text, count, number, say, sentences
 from inspect_cli.schema.scoring import Confusion, ConfusionRow, Rule, Scoring
 
@@ -54,7 +54,7 @@ def _matrix(confusion: Confusion) -> Table:
         Column(say("truly active"), say("points"), numeric=True),
         Column(say("truly sound"), say("points"), numeric=True),
     ]
-    rows = [[recorded(row.verdict), *_cells(row)] for row in confusion.rows]
+    rows = [[class_word(row.verdict), *_cells(row)] for row in confusion.rows]
     total: list[Text] = [
         say("all"),
         area(confusion.active_m2),

@@ -76,14 +76,24 @@ def _by_surface(
 def _areas(summary: SurfaceAssessment) -> Iterator[Text]:
     if summary.area_m2:
         active = next(share for share in summary.astm if share.name == "active")
+        potential = {
+            "active": area(active.area_m2),
+            "all": area(summary.area_m2),
+            "share": percent((active.area_m2 or 0.0) / summary.area_m2),
+        }
+        if summary.resistivity_known == 0:
+            yield say(
+                "{active} m² of the {all} m² that were measured ({share}) are active by their "
+                "potential (ASTM C876).",
+                **potential,
+            )
+            return
         combined = next(share for share in summary.verdicts if share.name == "active")
         yield say(
             "{active} m² of the {all} m² that were measured ({share}) are active by their "
             "potential (ASTM C876), {combined} m² by the combined rule.",
-            active=area(active.area_m2),
-            all=area(summary.area_m2),
-            share=percent((active.area_m2 or 0.0) / summary.area_m2),
             combined=area(combined.area_m2),
+            **potential,
         )
 
 

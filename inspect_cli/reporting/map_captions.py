@@ -143,6 +143,6 @@ def error_caption(evaluated: Evaluated, kriged: KrigedMap) -> Text:
         "mV: between the readings and at the edge the map is less sure than at them. A further "
         "reading would differ from the map by this and by its own measurement error.",
         surface=evaluated.surface,
-        least=significant(float(np.nanmin(error_mv)), 2),
-        most=significant(float(np.nanmax(error_mv)), 2),
+        least=number(float(np.nanmin(error_mv)), 1),
+        most=number(float(np.nanmax(error_mv)), 1),
     )

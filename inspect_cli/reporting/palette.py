@@ -83,7 +83,7 @@ ASTM_STYLES = {
     "active": ClassStyle(say("active"), VERMILION, "diamond"),
 }
 CORROSION_STYLES = {
-    "none": ClassStyle(say("none"), SKY_BLUE, "circle"),
+    "none": ClassStyle(say("not indicated"), SKY_BLUE, "circle"),
     "possible": ClassStyle(say("possible"), ORANGE, "square"),
     "active": ClassStyle(say("active"), VERMILION, "diamond"),
 }

@@ -31,7 +31,7 @@ from inspect_cli.reporting.text import (
 )
 from inspect_cli.reporting.works import Works, boxes
 from inspect_cli.schema.plan import Plan
-from inspect_cli.schema.result import Result, Status
+from inspect_cli.schema.result import PointResult, Result, Status
 
 STATUS_WORDS: dict[Status, Text] = {
     "completed": say("The flight was completed."),
@@ -107,21 +107,55 @@ def _corrosion(points: Sequence[ReadPoint]) -> list[Text]:
     read = [p.point for p in points if p.point.potential_mv is not None]
     if not read:
         return [say("Without a valid reading nothing can be said about corrosion.")]
+    if not _has_resistivity(points):
+        by_potential = [point.label for point in read if point.astm_class == "active"]
+        undecided = [point.label for point in read if point.astm_class == "uncertain"]
+        return [*_by_potential(by_potential, undecided), _worst(read)]
     active = [point.label for point in read if point.corrosion == "active"]
     slow = [p.label for p in read if p.corrosion != "active" and p.astm_class == "active"]
     possible = [p.label for p in read if p.corrosion == "possible" and p.astm_class != "active"]
-    worst = min(read, key=lambda point: point.potential_mv or 0.0)
     return [
         *_active(active),
         *_slow(slow),
         *_possible(possible, known=bool(active or slow)),
         *([] if active or slow or possible else [say("No valid reading indicates corrosion.")]),
-        say(
-            "The most negative potential is {potential} mV CSE at point {label}.",
-            potential=number(worst.potential_mv, 0),
-            label=worst.label,
-        ),
+        _worst(read),
     ]
+
+
+def _has_resistivity(points: Sequence[ReadPoint]) -> bool:
+    """Without any there is no verdict but that of the potentials."""
+    return any(p.point.resistivity_ohm_m is not None for p in points)
+
+
+def _worst(read: Sequence[PointResult]) -> Text:
+    worst = min(read, key=lambda point: point.potential_mv or 0.0)
+    return say(
+        "The most negative potential is {potential} mV CSE at point {label}.",
+        potential=number(worst.potential_mv, 0),
+        label=worst.label,
+    )
+
+
+def _by_potential(active: Sequence[str], undecided: Sequence[str]) -> Iterator[Text]:
+    """What potentials alone say; resistivities were not measured."""
+    if active:
+        yield count(
+            len(active),
+            "By its potential (ASTM C876) point {labels} is active.",
+            "By their potential (ASTM C876) points {labels} are active.",
+            labels=named(active),
+        )
+    if undecided:
+        yield count(
+            len(undecided),
+            "The potential at point {labels} does not decide.",
+            "The potentials at points {labels} do not decide.",
+            labels=named(undecided),
+        )
+    if not active and not undecided:
+        yield say("By their potentials all points are passive (ASTM C876).")
+    yield say("No resistivity was measured: how fast steel may corrode is not known.")
 
 
 def _active(labels: Sequence[str]) -> Iterator[Text]:
@@ -185,12 +219,13 @@ def reading_boxes(points: Sequence[ReadPoint]) -> list[Box]:
     """The key figures of readings."""
     read = [p.point for p in points if p.point.potential_mv is not None]
     potentials = [point.potential_mv for point in read if point.potential_mv is not None]
+    together_active = say("active by potential and resistivity")
     by_potential = sum(p.astm_class == "active" for p in read)
     active = sum(p.corrosion == "active" for p in read)
     return [
         Box(say("valid readings"), f"{sum(p.point.valid for p in points)} / {len(points)}"),
         Box(say("active by potential (ASTM C876)"), number(by_potential, 0)),
-        Box(say("active by potential and resistivity"), number(active, 0)),
+        *([Box(together_active, number(active, 0))] if _has_resistivity(points) else []),
         Box(say("most negative"), number(min(potentials, default=None), 0), "mV CSE"),
     ]
 

@@ -96,7 +96,12 @@ def class_chip(name: str | None) -> Text:
     if name is None:
         return NOTHING
     kind = {"none": "passive", "possible": "uncertain"}.get(name, name)
-    return Chip(recorded(name), kind)
+    return Chip(class_word(name), kind)
+
+
+def class_word(name: str) -> Text:
+    """The class in words; of a verdict ``none`` no more than that nothing indicates corrosion."""
+    return say("not indicated") if name == "none" else recorded(name)
 
 
 def metrics_table(caption: Text, result: Result, groups: Sequence[str]) -> list[Block]:

@@ -94,7 +94,7 @@ def test_combined_rule(potential: float, rho: float | None, verdict: str) -> Non
 
 
 def test_the_rule_in_words_names_its_thresholds_and_verdicts() -> None:
-    for word in ("−200 mV", "−350 mV", "100 Ω·m", "None:", "Active:", "Possible:"):
+    for word in ("−200 mV", "−350 mV", "100 Ω·m", "Not indicated:", "Active:", "Possible:"):
         assert word in COMBINED_RULE
 
 

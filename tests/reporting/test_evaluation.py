@@ -36,7 +36,7 @@ from inspect_cli.reporting.naming import named
 from inspect_cli.reporting.pictures import caption, pictures_sections
 from inspect_cli.reporting.plots import draw
 from inspect_cli.reporting.points import ReadPoint
-from inspect_cli.reporting.summary import findings
+from inspect_cli.reporting.summary import findings, reading_boxes
 from inspect_cli.reporting.text import Said
 from inspect_cli.schema.scoring import Confusion, ConfusionRow, Rule, Scoring, SurfaceScoring
 
@@ -109,7 +109,8 @@ def test_tables_of_classes_hold_the_assessment(deck: Evaluated) -> None:
         assert as_number(row[5]) == pytest.approx(share.area_m2, abs=5e-3)
     assert [rows[-1][0], rows[-1][3]] == ["invalid", "1"]
     for share, row in zip(summary.verdicts, table_of(blocks, "Combined verdict"), strict=True):
-        assert (row[0], as_number(row[1])) == (share.name, share.count)
+        shown = "not indicated" if share.name == "none" else share.name
+        assert (row[0], as_number(row[1])) == (shown, share.count)
         assert row[4] == "–" or str(share.count - 10) in row[4]
     rates = table_of(blocks, "Classes of resistivity")
     assert [as_number(row[3]) for row in rates] == [s.count for s in summary.rates + summary.risks]
@@ -325,6 +326,27 @@ def test_findings_tell_areas_gradients_and_populations(deck: Evaluated) -> None:
     assert "The potentials are of two populations" in text
 
 
+def test_without_resistivity_nothing_is_said_of_both() -> None:
+    """No reassuring zero stands where nothing was measured."""
+    potential_mv = [-430.0] * 20 + [-300.0] * 4 + [-100.0]
+    evaluated = surveyed(lattice(5, 5), potential_mv)
+    points = points_of(evaluated)
+    text = " ".join(ENGLISH.plain(t) for t in findings(points, [evaluated]))
+    assert "combined" not in text
+    assert "The potentials at points" in text
+    assert "No resistivity was measured" in text
+    names = [ENGLISH.plain(box.name) for box in reading_boxes(points)]
+    assert names == ["valid readings", "active by potential (ASTM C876)", "most negative"]
+    tables = {
+        ENGLISH.plain(block.caption): block
+        for block in evaluation_blocks([evaluated], points, None)
+        if isinstance(block, Table)
+    }
+    assert not [caption for caption in tables if caption.startswith("Combined")]
+    (table,) = (tables[caption] for caption in tables if caption.startswith("Readings by point"))
+    assert "Corrosion" not in [ENGLISH.plain(column.heading) for column in table.columns]
+
+
 @pytest.mark.parametrize(
     ("electrode", "temperature_c", "sentence"),
     [
@@ -365,7 +387,7 @@ def test_scoring_is_told_in_areas_and_points(deck: Evaluated) -> None:
     )
     blocks = blocks_of(deck, scoring)
     rows = table_of(blocks, "The combined verdict against the truth")
-    assert [row[0] for row in rows] == ["none", "possible", "active", "unread", "all"]
+    assert [row[0] for row in rows] == ["not indicated", "possible", "active", "unread", "all"]
     assert [as_number(row[1]) for row in rows] == [0.0, 0.5, 1.0, 1.5, 3.0]
     assert [as_number(row[4]) for row in rows] == [16, 16, 16, 16, 64]
     text = told(blocks)
