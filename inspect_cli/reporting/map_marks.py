@@ -12,6 +12,7 @@ from inspect_cli.reporting.map_frame import MAX_WRITTEN_VALUES
 from inspect_cli.reporting.palette import ASTM_STYLES, BLUE, INK, INVALID_STYLE
 from inspect_cli.reporting.places import Place, places_of
 from inspect_cli.reporting.potential_scale import colours
+from inspect_cli.reporting.printable import shortened
 from inspect_cli.reporting.text import Text, number, say, together
 
 MOST_MARKERS = 2000
@@ -22,6 +23,8 @@ MARKER_PX = 15
 SIZES_PX = ((MAX_WRITTEN_VALUES, MARKER_PX), (400, 9), (MOST_MARKERS, 5))
 HALO = ", ".join(["0 0 2px #ffffff"] * 3)
 """Keeps labels readable on any colour and across lines."""
+MOST_LETTERS = 14
+"""Of a label on the map; the whole one stands in the tables."""
 
 
 def valid_markers(places: Sequence[Place], ends: tuple[float, float]) -> list[Json]:
@@ -178,4 +181,4 @@ def _written(p: Place) -> Text:
 
 
 def _bold(label: str) -> Text:
-    return together("<b>", words(label), "</b>")
+    return together("<b>", words(shortened(label, MOST_LETTERS)), "</b>")

@@ -64,12 +64,18 @@ def _summary(
     read = evaluated.assessed.summary.valid
     caveats = [*reading_caveats([evaluated], probed=False), *few_readings(read)]
     return [
-        Notes([SPACING_ASSUMED] if "spacing_m" in result.assumed else [], "warnings"),
+        Notes(_warnings(result), "warnings"),
         *finding(findings(points, [evaluated])),
         Boxes(reading_boxes(points)),
         Heading(say("What this report does not say")),
         Notes(caveats, "caveats"),
     ]
+
+
+def _warnings(result: ReadingsResult) -> list[Text]:
+    """What has to be known before any number is read."""
+    assumed = [SPACING_ASSUMED] if "spacing_m" in result.assumed else []
+    return [*assumed, *(recorded(warning) for warning in result.warnings)]
 
 
 def _cover(result: ReadingsResult) -> Cover:
@@ -111,9 +117,6 @@ def _method(result: ReadingsResult) -> list[Block]:
         told = [ASSUMED.get(name, code(name)) for name in result.assumed]
         blocks.append(Paragraph(say("Nobody stated, and this report assumes:"), "note"))
         blocks.append(Notes(told))
-    if result.warnings:
-        blocks.append(Heading(say("Remarks on the file")))
-        blocks.append(Notes([recorded(warning) for warning in result.warnings]))
     return blocks
 
 
