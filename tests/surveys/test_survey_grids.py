@@ -59,13 +59,14 @@ def test_the_same_grid_in_its_usual_shapes(tmp_path: Path, text: str) -> None:
 
 @pytest.mark.parametrize("encoding", ["utf-8", "utf-8-sig", "utf-16", "utf-16-le", "utf-16-be"])
 def test_encodings(tmp_path: Path, encoding: str) -> None:
-    survey = read(tmp_path, LABELLED.replace("B", "Süd").encode(encoding))
-    assert survey.labels[0] == "2/Süd"
+    survey = read(tmp_path, LABELLED.replace("\n2", "\nSüd").encode(encoding))
+    assert survey.labels[0] == "Süd/B"
     assert survey.potential_mv[0] == -350.5
 
 
 def test_latin_1(tmp_path: Path) -> None:
-    assert read(tmp_path, LABELLED.replace("B", "Süd").encode("latin-1")).labels[0] == "2/Süd"
+    text = LABELLED.replace("\n2", "\nSüd")
+    assert read(tmp_path, text.encode("latin-1")).labels[0] == "Süd/B"
 
 
 @pytest.mark.parametrize(
@@ -214,6 +215,71 @@ def test_a_list_without_names_is_no_grid(tmp_path: Path) -> None:
     assert "s.csv:1:1: cell A1: the first columns look like coordinates" in said
     assert "layout: list or layout: grid" in said
     assert read(tmp_path, text, layout="grid").potential_mv.size == 12
+
+
+LIST = "{}\n0{d}0{d}-100\n1{d}0{d}-380\n0{d}1{d}-120\n1{d}1{d}-390\n"
+
+
+@pytest.mark.parametrize(
+    ("names", "said"),
+    [
+        ("Station,Offset,Reading", "A1: names of columns that are not understood: 'Station', 'Of"),
+        ("Spalte;Zeile;Messwert", "not understood: 'Spalte', 'Zeile', 'Messwert'"),
+        ("Chainage,Width,mV", "but no x and y; not understood: 'Chainage', 'Width'"),
+        ("East,North,Value", "of coordinates, but none of potentials; not understood: 'Value'"),
+        ("a,b,c", "the first columns look like coordinates and have no such names"),
+        ("A,B,C", "the first columns look like coordinates"),
+        ("C1;C2;C3", "the first columns look like coordinates"),
+    ],
+)
+def test_a_list_with_other_names_is_no_grid(tmp_path: Path, names: str, said: str) -> None:
+    text = LIST.format(names, d=";" if ";" in names else ",")
+    told = refusal(tmp_path, text)
+    assert said in told
+    assert "x_m,y_m,potential_mv" in told
+    assert "layout: grid" in told
+    grid = read(tmp_path, text, layout="grid").grid
+    assert grid is not None
+    assert grid.columns == 3
+
+
+@pytest.mark.parametrize("corner", ["", "Zeile", "row"])
+@pytest.mark.parametrize("names", ["Spalte,Messwert", "East 1,West 1", "A,Value"])
+def test_words_beside_names_of_rows_are_no_columns(tmp_path: Path, corner: str, names: str) -> None:
+    text = f"{corner},{names}\n1,0,-100\n2,0,-380\n"
+    assert "not understood: '" + names.split(",")[0] in refusal(tmp_path, text)
+    assert read(tmp_path, text, layout="grid").labels[0] == f"1/{names.split(',')[0]}"
+
+
+def test_coordinates_are_known_beside_gaps_and_decimal_commas(tmp_path: Path) -> None:
+    for text in (
+        "a;b;c\n0,5;0;-100\n1,5;0;-\n",
+        "0,5;0;-100\n1,5;0;-\n",
+        ",a,b,c\n0,1,2,-3\n1,2,2,-4\n",
+    ):
+        assert "the first columns look like coordinates" in refusal(tmp_path, text)
+
+
+@pytest.mark.parametrize(
+    "names",
+    ["A,C,AA", "H,F,D", "a,b,c", "C1,C2,C3", "P 3,P 2,P 1", "Spalte 4,Spalte 5,spalte 6"],
+)
+@pytest.mark.parametrize("corner", ["", "row,", ",", "Achse,"])
+def test_names_that_count_are_a_grid(tmp_path: Path, names: str, corner: str) -> None:
+    label = "P," if corner else ""
+    survey = read(tmp_path, f"{corner}{names}\n{label}-100,-120,-300\n{label and 'Q,'}-1,-2,-3\n")
+    assert survey.grid is not None
+    assert survey.grid.column_names == tuple(names.split(","))
+    assert survey.potential_mv.tolist() == [-100, -120, -300, -1, -2, -3]
+
+
+def test_a_grid_may_be_stated_for_both_files(tmp_path: Path) -> None:
+    text = "row,North,South\n1,{},{}\n2,{},{}\n"
+    (tmp_path / "rho.csv").write_text(text.format(1, 2, 3, 4))
+    readings = text.format(-100, -200, -300, -400)
+    assert "not understood: 'South'" in refusal(tmp_path, readings)
+    survey = read(tmp_path, readings, layout="grid", resistivity="rho.csv")
+    assert survey.resistivity_ohm_m.tolist() == [10, 20, 30, 40]
 
 
 def test_resistivities_of_the_same_grid(tmp_path: Path) -> None:
