@@ -14,6 +14,7 @@ import numpy as np
 from inspect_cli.errors import InputError, Location, Problem
 from inspect_cli.schema.survey import SurveySettings
 from inspect_cli.spatial.arrays import Mask, Points, Vector
+from inspect_cli.surveys.distances import require_spacing
 from inspect_cli.surveys.files import SourceFile, read_cells
 from inspect_cli.surveys.grids import Grid, grid_of
 from inspect_cli.surveys.joining import joined_resistivity
@@ -100,6 +101,8 @@ def read_survey(path: Path, settings: SurveySettings | None = None) -> Survey:
 def _survey_of_grid(path: Path, grid: Grid, source: SourceFile, settings: SurveySettings) -> Survey:
     unit = UNITS[settings.potential_unit]
     stated = set(settings.model_fields_set)
+    if "spacing_m" not in stated:
+        require_spacing(grid)
     values = potentials_mv(
         grid.values.ravel(), unit, "potential_unit" in stated, settings, grid.where
     )

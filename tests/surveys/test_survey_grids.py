@@ -75,7 +75,7 @@ def test_latin_1(tmp_path: Path) -> None:
         ("-350 -340\n-250 -240\n", ("R1C1", "R1C2", "R2C1", "R2C2")),
         ("A,C\n-350,-340\n-250,-240\n", ("R1/A", "R1/C", "R2/A", "R2/C")),
         ("P,-350,-340\nQ,-250,-240\n", ("P/C1", "P/C2", "Q/C1", "Q/C2")),
-        ("row,0.0,0.1\n1,-350,-340\n2,-250,-240\n", ("1/0.0", "1/0.1", "2/0.0", "2/0.1")),
+        ("row,0,1\n1,-350,-340\n2,-250,-240\n", ("1/0", "1/1", "2/0", "2/1")),
         # A spreadsheet's columns, of which some could name a list's: X, Y and E are no headings.
         ("row,E,F,X,Y\n1,-1,-2,-3,-4\n", ("1/E", "1/F", "1/X", "1/Y")),
         ("-350\n-340\n", ("R1C1", "R2C1")),
@@ -83,6 +83,54 @@ def test_latin_1(tmp_path: Path) -> None:
 )
 def test_labels(tmp_path: Path, text: str, labels: tuple[str, ...]) -> None:
     assert read(tmp_path, text).labels == labels
+
+
+GRID = "{},{}\n{},-350,-340,-330\n{},-250,-240,-230\n"
+
+
+@pytest.mark.parametrize(
+    ("columns", "rows", "where", "said"),
+    [
+        ("0,0.5,1.0", ("0", "0.5"), "B1: the names of the columns and rows", "--spacing-m 0.5x0.5"),
+        ("0,0.1,0.2", ("0.25", "0"), "B1: the names of the columns and", "--spacing-m 0.1x0.25"),
+        ("0,20,40", ("50", "0"), "B1: the names of the columns and rows", "--spacing-m 20x50"),
+        ("1,2,3", ("0", "10"), "A2: the names of the columns and rows", "--spacing-m 1x10"),
+        ("1.0,2.0,3.0", ("A", "B"), "B1: the names of the columns look", "--spacing-m 1xDV"),
+        ("A,B,C", ("0", "0.5"), "A2: the names of the rows look", "--spacing-m DUx0.5"),
+        (
+            "0,0.5,1.5",
+            ("1", "2"),
+            "B1: the names of the columns",
+            "their steps differ: give a list",
+        ),
+    ],
+)
+@pytest.mark.parametrize("corner", ["", "row"])
+def test_names_that_are_distances_need_a_spacing(
+    tmp_path: Path, corner: str, columns: str, rows: tuple[str, str], where: str, said: str
+) -> None:
+    text = GRID.format(corner, columns, *rows)
+    told = refusal(tmp_path, text)
+    assert f"cell {where}" in told
+    assert "their unit is not known" in told
+    assert said in told
+    survey = read(tmp_path, text, spacing_m=[0.5, 0.25])
+    assert survey.uv_m[:, 0].max() == 1.0
+    assert survey.labels[0] == f"{rows[0]}/{columns.split(',')[0]}"
+
+
+@pytest.mark.parametrize(
+    ("columns", "rows"),
+    [
+        *(("1,2,3", ("1", "2")), ("0,1,2", ("0", "1")), ("B,D,F", ("2", "4"))),
+        *(("1,3,5", ("2", "4")), ("A,B,C", ("10", "20")), ("3,2,1", ("P 1", "P 2"))),
+        *(("1,2,4", ("1", "2")), ("7,3,5", ("0.5", "0.5a")), ("0.5,0.1,0.7", ("1", "2"))),
+    ],
+)
+def test_names_that_only_count_need_none(
+    tmp_path: Path, columns: str, rows: tuple[str, str]
+) -> None:
+    assert "spacing_m" in read(tmp_path, GRID.format("row", columns, *rows)).assumed
 
 
 def test_places_run_right_and_up_from_the_bottom_left(tmp_path: Path) -> None:
