@@ -30,9 +30,9 @@ class _Axis:
 def require_spacing(grid: Grid) -> None:
     """Refuses a grid without a stated spacing whose names look like distances.
 
-    Whole numbers at steps of 1 or 2 count rows and columns. Numbers with decimals or a minus are distances,
-    and so are whole numbers at other equal steps, if the other side has numbers, too. Were they
-    taken for mere names, the area could be wrong by any factor.
+    Whole numbers at steps of 1 or 2 count rows and columns. Numbers with decimals or a minus are
+    distances, and so are whole numbers at other equal steps, if the other side has numbers, too.
+    Were they taken for mere names, the area could be wrong by any factor.
 
     Raises:
         InputError: with the distances that the names would mean.

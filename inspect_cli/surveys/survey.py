@@ -63,7 +63,7 @@ class Survey:
     plane: FittedPlane | None
     """Where readings in space were laid out on a plane."""
     settings: SurveySettings
-    """As used: with the units and the electrode that the file states."""
+    """As used: with the layout that the file has, and the units and the electrode it states."""
     assumed: tuple[str, ...]
     """The settings that matter for the result and that neither file nor user stated."""
     warnings: tuple[str, ...]
@@ -125,7 +125,7 @@ def _survey_of_grid(path: Path, grid: Grid, source: SourceFile, settings: Survey
         why=tuple(grid.gaps.get(k, "") for k in range(len(values))),
         grid=SurveyGrid(rows, columns, grid.row_names, grid.column_names, settings.spacing_m),
         plane=None,
-        settings=settings,
+        settings=settings.model_copy(update={"layout": "grid"}),
         assumed=tuple(key for key in matters if key not in stated | stated_too),
         warnings=grid.cells.warnings,
     )
@@ -173,13 +173,13 @@ def _survey_of_list(
 
 
 def _as_used(rows: ReadingList, settings: SurveySettings) -> SurveySettings:
-    """The settings with what the headings state."""
+    """The settings with what the headings state, and what the file turned out to be."""
     units = {"potential": "potential_unit", "resistivity": "resistivity_unit"}
     stated: dict[str, object] = {
         key: rows.units[role].key for role, key in units.items() if role in rows.units
     }
     length = next(rows.units[role] for role in ("x", "u") if role in rows.units)
-    stated["coordinate_unit"] = length.key
+    stated |= {"coordinate_unit": length.key, "layout": "list"}
     if rows.electrode:
         stated["electrode"] = rows.electrode
     return settings.model_copy(update=stated)

@@ -187,8 +187,12 @@ def test_gaps_are_kept_with_their_reason(tmp_path: Path) -> None:
         ("\n# nothing\n", "s.csv:1:1: cell A1: the file is empty"),
         (",,\n,,\n", "s.csv:1:1: cell A1: the file is empty"),
         ('"a,-1\n', "s.csv:1: is not CSV"),
-        (b"\x89PNG\r\n\x1a\n\x00\x00\x01", "cannot be read as a table"),
-        (b"\xff\xfe\x00", "s.csv: cannot be read as a table"),
+        (
+            b"\x89PNG\r\n\x1a\n\x00\x00\x01",
+            "this is no text: it holds the control character U+001A",
+        ),
+        (b"\xff\xfe\x00", "s.csv: this is no text: byte 3 (0x00) is no character"),
+        (b"a,\x81\n", "s.csv: this is no text: byte 3 (0x81) is no character\n    CSV or an Excel"),
         # Names that stand where readings are expected.
         ("Station,A,B\n1,-1,-2\n2,-3,-4\n3,-5,-6\n", "cell A2: 1 and what follows look like"),
         ("1,2,3\n-350,-340,-330\n", "cell A1: 1 and what follows look like the columns' names"),
