@@ -37,6 +37,8 @@ class Grid:
     cells: Cells
     first: tuple[int, int]
     """Where in ``cells`` the first number stands."""
+    with_unit: frozenset[int]
+    """Which of the flattened values carry their unit."""
 
     def where(self, k: int) -> Location:
         """The address of the k-th value, row by row."""
@@ -107,6 +109,7 @@ def grid_of(cells: Cells, unit: Unit | None) -> Grid:
         _unique(cells, [(0, j) for j in range(left, cells.width)]) if named else None,
         cells,
         (top, left),
+        numbers.with_unit,
     )
 
 

@@ -7,6 +7,7 @@ reading stays with its reason, a repeated reading stays a reading of its own.
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import partial
 from pathlib import Path
 
 import numpy as np
@@ -22,6 +23,7 @@ from inspect_cli.surveys.layout import layout_of
 from inspect_cli.surveys.lists import ReadingList, list_of
 from inspect_cli.surveys.planes import LEVEL, TOLERANCE_M, FittedPlane, fitted_plane
 from inspect_cli.surveys.plausible import potentials_mv, resistivities_ohm_m, temperatures_c
+from inspect_cli.surveys.sentinels import refuse_sentinels
 from inspect_cli.surveys.units import UNITS
 
 
@@ -103,9 +105,9 @@ def _survey_of_grid(path: Path, grid: Grid, source: SourceFile, settings: Survey
     stated = set(settings.model_fields_set)
     if "spacing_m" not in stated:
         require_spacing(grid)
-    values = potentials_mv(
-        grid.values.ravel(), unit, "potential_unit" in stated, settings, grid.where
-    )
+    raw = grid.values.ravel()
+    refuse_sentinels(raw, unit, grid.with_unit, grid.where)
+    values = potentials_mv(raw, unit, "potential_unit" in stated, settings, grid.where)
     resistivity, stated_too, settings, files = _second_file(path, settings, grid, source)
     rows, columns = grid.values.shape
     du, dv = settings.spacing_m
@@ -138,8 +140,9 @@ def _survey_of_list(
     potential = rows.numbers["potential"]
     unit = rows.units["potential"]
     is_stated = "potential_unit" in stated
+    refuse_sentinels(potential.values, unit, potential.with_unit, partial(rows.where, "potential"))
     values = potentials_mv(
-        potential.values, unit, is_stated, settings, lambda k: rows.where("potential", k)
+        potential.values, unit, is_stated, settings, partial(rows.where, "potential")
     )
     own = _own_resistivity(rows)
     if own is not None and settings.resistivity is not None:

@@ -254,6 +254,33 @@ def test_potentials_near_zero_are_read(tmp_path: Path) -> None:
     assert read(tmp_path, text, potential_unit="mV").potential_mv.tolist() == [-350.2, -0.4]
 
 
+@pytest.mark.parametrize("value", ["-999", "-999.0", "999", "-9999", "9999", "−99999"])
+@pytest.mark.parametrize("settings", [{}, {"sign": "as_read"}, {"sign": "inverted"}])
+def test_a_number_for_no_reading_is_refused(
+    tmp_path: Path, value: str, settings: dict[str, object]
+) -> None:
+    said = refusal(tmp_path, f"-100,{value},-300\n-110,{value},-350\n", **settings)
+    assert "s.csv:1:6: cell B1: " in said
+    assert "(2 times) far from all other readings stands for no reading" in said
+    assert "leave the cell empty" in said
+    assert ("with the unit, if that was read" in said) == ("9999" not in value)
+    listed = refusal(tmp_path, f"x,y,E [V]\n0,0,-0.3\n1,0,{value}\n", **settings)
+    assert "cell C3: " in listed
+    assert listed.endswith("stands for no reading\n    leave the cell empty")
+
+
+def test_a_true_reading_that_looks_like_none_is_read(tmp_path: Path) -> None:
+    values = [-100, -999, -300, -110, -999, -350]
+    stated = read(tmp_path, "-100,-999 mV,-300\n-110,-999,-350\n")
+    assert stated.potential_mv.tolist() == values
+    near = read(tmp_path, "-940,-999,-1020\n")
+    assert near.potential_mv.tolist() == [-940, -999, -1020]
+    plausible = read(tmp_path, "-100,0,-300\n-99,99,-350\n")
+    assert plausible.valid.all()
+    listed = read(tmp_path, "x,y,E\n0,0,-300\n1,0,-999mV\n")
+    assert listed.potential_mv.tolist() == [-300, -999]
+
+
 def test_volts_and_signs(tmp_path: Path) -> None:
     survey = read(tmp_path, "-0.35,-0.3405\n-0.1,0.02\n", potential_unit="V")
     assert survey.potential_mv.tolist() == [-350.0, -340.5, -100.0, 20.0]
