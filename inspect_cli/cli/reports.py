@@ -29,7 +29,7 @@ def report(
         bool, typer.Option("--no-pictures", help="Render no scene and no film.")
     ] = False,
     readings: Annotated[
-        Path | None,
+        list[Path] | None,
         typer.Option(
             metavar="FILE",
             parser=named_path,
@@ -122,12 +122,15 @@ def report(
         "title": title,
         "language": language,
     }
-    if readings is None:
+    if not readings:
         _refuse_options_of_readings(options)
         return _report_flights(runs or [], out, language or "en", pdf, export, no_pictures, as_json)
     if runs:
         raise InputError("--readings reports a file, and flights are reported without it")
-    return _report_readings(readings, options, out, pdf, export, as_json)
+    if len(readings) > 1:
+        hint = "give each file a report of its own: one file, one surface, one report"
+        raise InputError(f"--readings is given {len(readings)} times", hint=hint)
+    return _report_readings(readings[0], options, out, pdf, export, as_json)
 
 
 def _report_flights(

@@ -108,6 +108,19 @@ def deliver(folder: Path, document: Document, wanted: Wanted) -> Path:
     return page
 
 
+def require_exportable(points: int, wanted: Wanted) -> None:
+    """Refuse, before anything is written, more points than a wanted export takes.
+
+    Raises:
+        InputError: there are too many.
+        EnvironmentFault: what writes a model is not installed.
+    """
+    if "ifc" in wanted.exports:
+        from inspect_cli.exchange.ifc import require_model
+
+        require_model(points)
+
+
 def export(
     folder: Path,
     readings: HandedReadings,

@@ -32,6 +32,7 @@ from inspect_cli.commands.delivery import (
     deliver,
     export,
     report_folder,
+    require_exportable,
     require_room,
 )
 from inspect_cli.commands.evaluating import mapped
@@ -81,13 +82,16 @@ def report_readings(
         InputError: a cell, a setting or a file is refused; then nothing is written.
     """
     if file.is_dir():
-        raise InputError(f"{file} is a folder", hint="name a file of readings, one per surface")
+        raise InputError(
+            f"{file} is a folder", hint="name one file of readings: a report has one surface"
+        )
     folder = out or Path("reports") / file.stem
     require_room(folder)
     settings = read_settings(file, options)
     wanted = Wanted(language=settings.language, pdf=pdf, exports=exports)
     survey = read_survey(file, settings)
     _refuse_idle(options or {}, survey)
+    require_exportable(len(survey.labels), wanted)
     name = survey.settings.structure or file.stem
     readings, basis = standard_readings(survey)
     evaluated = mapped(assess(name, readings, basis=basis))

@@ -14,6 +14,7 @@ from inspect_cli.commands.delivery import (
     export,
     handed_readings,
     report_folder,
+    require_exportable,
     require_room,
 )
 from inspect_cli.commands.evaluating import evaluated_points
@@ -65,6 +66,7 @@ def _report_one(
         return ReportOutcome(*report_survey(run, survey, folder, wanted))
     log = read_log(log_of(run))
     result, plan = evaluate(log), log.plan()
+    require_exportable(len(result.points), wanted)
     write_model(report_folder(folder) / METRICS_NAME, result)
     write_readings(folder, result)
     export(folder, handed_readings(log, result), wanted)

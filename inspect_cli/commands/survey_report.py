@@ -8,7 +8,14 @@ from pathlib import Path
 
 from pydantic import ValidationError
 
-from inspect_cli.commands.delivery import Wanted, deliver, export, handed_readings, report_folder
+from inspect_cli.commands.delivery import (
+    Wanted,
+    deliver,
+    export,
+    handed_readings,
+    report_folder,
+    require_exportable,
+)
 from inspect_cli.commands.evaluating import evaluated_points
 from inspect_cli.commands.pictures import pictured
 from inspect_cli.commands.runs import (
@@ -71,6 +78,7 @@ def report_survey(
         LogError: the log of a sortie is damaged; the others can be reported one by one.
         InputError: there is no sortie, or one is missing before another.
     """
+    require_exportable(len(survey.joined().targets), wanted)
     first: RunLog | None = None
     results: list[Result] = []
     for sortie, file in _flown(run, survey):

@@ -55,12 +55,7 @@ def ifc(
         InputError: there are too many points.
         EnvironmentFault: ifcopenshell is not installed.
     """
-    if len(readings.points) > MAX_POINTS:
-        raise InputError(
-            f"{len(readings.points)} readings are too many for a model of a building, "
-            f"which takes {MAX_POINTS}",
-            hint="hand out CSV or GeoJSON, or the readings of one surface",
-        )
+    require_model(len(readings.points))
     model = _Model(_ifcopenshell(), readings, georeference)
     used = {_class_of(point) for point in readings.points}
     shapes = {name: model.shape(name, radius_m) for name in COLOURS if name in used}
@@ -68,6 +63,21 @@ def ifc(
     model.finish(proxies)
     text: str = model.file.to_string()
     return text
+
+
+def require_model(points: int) -> None:
+    """Refuses so many points that a model cannot take, or any where none can be written.
+
+    Raises:
+        InputError: there are too many points.
+        EnvironmentFault: ifcopenshell is not installed.
+    """
+    if points > MAX_POINTS:
+        raise InputError(
+            f"{points} readings are too many for a model of a building, which takes {MAX_POINTS}",
+            hint="hand out CSV or GeoJSON, or the readings of one surface",
+        )
+    _ifcopenshell()
 
 
 def _ifcopenshell() -> Any:

@@ -127,9 +127,9 @@ def _sign(settings: SurveySettings) -> list[tuple[Text, Text]]:
 
 
 def _spacing(settings: SurveySettings) -> list[tuple[Text, Text]]:
-    between_columns, between_rows = (number(spacing, 3) for spacing in settings.spacing_m)
     if settings.layout == "list":
         return []
+    between_columns, between_rows = (number(spacing, 3) for spacing in settings.spacing_m)
     told = say("{u} m between columns, {v} m between rows", u=between_columns, v=between_rows)
     return [(say("Spacing of a grid"), told)]
 

@@ -16,11 +16,10 @@ from inspect_cli.errors import InputError, Location, Problem
 from inspect_cli.spatial.arrays import Matrix, Vector
 from inspect_cli.surveys.cells import Cells
 from inspect_cli.surveys.files import read_cells
-from inspect_cli.surveys.layout import labelled_by_text, require_rows
+from inspect_cli.surveys.layout import has_row_word, labelled_by_text, require_rows
 from inspect_cli.surveys.numbers import NumberReader, is_gap, is_number
 from inspect_cli.surveys.units import Unit
 
-_ROW_WORDS = frozenset({"", "row", "rows", "zeile", "zeilen", "reihe", "reihen", "row/column"})
 FEW = 3
 """So many numbers at equal steps, where readings should be, look like names."""
 
@@ -38,6 +37,8 @@ class Grid:
     cells: Cells
     first: tuple[int, int]
     """Where in ``cells`` the first number stands."""
+    with_unit: frozenset[int]
+    """Which of the flattened values carry their unit."""
 
     def where(self, k: int) -> Location:
         """The address of the k-th value, row by row."""
@@ -108,14 +109,13 @@ def grid_of(cells: Cells, unit: Unit | None) -> Grid:
         _unique(cells, [(0, j) for j in range(left, cells.width)]) if named else None,
         cells,
         (top, left),
+        numbers.with_unit,
     )
 
 
 def _names(cells: Cells) -> tuple[bool, bool]:
     """Whether the first row names the columns, and whether the first column names the rows."""
-    corner = cells.rows[0][0]
-    by_word = isinstance(corner, str) and corner.strip().casefold() in _ROW_WORDS
-    if by_word and cells.width > 1:
+    if has_row_word(cells):
         _refuse_readings_as_names(cells)
         return True, True
     named = not any(is_number(value) or is_gap(value) for value in cells.rows[0])

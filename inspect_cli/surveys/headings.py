@@ -23,7 +23,9 @@ DIMENSIONS: dict[str, Dimension] = {
 }
 _NAMES: dict[str, Role] = {
     **{axis: axis for axis in ("x", "y", "z", "u", "v")},
-    **dict.fromkeys(("e", "ecorr", "hcp", "halfcell"), "potential"),
+    **dict.fromkeys(("easting", "east", "rechtswert"), "x"),
+    **dict.fromkeys(("northing", "north", "hochwert"), "y"),
+    **dict.fromkeys(("e", "ecorr", "hcp", "halfcell", "mv"), "potential"),
     **dict.fromkeys(("rho", "ρ"), "resistivity"),
     **dict.fromkeys(("temperature", "temperatur", "temp", "t"), "temperature"),
     **dict.fromkeys(
@@ -87,6 +89,8 @@ def _heading(cells: Cells, j: int) -> Heading:
             return Heading(None, None)  # "T (remarks)" need not be a temperature
         what = f"the heading {value.strip()!r} has no unit of {wanted or 'anything'}: {note!r}"
         raise cells.refused(0, j, what, _choices(wanted))
+    if unit is None and wanted == "potential":
+        unit = unit_named(stem)  # a heading that is nothing but "mV"
     return Heading(role, unit, electrode)
 
 

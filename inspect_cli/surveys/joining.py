@@ -38,7 +38,7 @@ def joined_resistivity(
             positive; with the address.
     """
     cells, source = read_cells(path)
-    layout = layout_of(cells, "resistivity", None)
+    layout = layout_of(cells, "resistivity", settings.layout)
     if isinstance(potentials, Grid):
         if layout != "grid":
             raise _of_two_kinds(path, "list", "grid")

@@ -34,6 +34,8 @@ class Numbers:
 
     values: Vector
     gaps: dict[int, str]
+    with_unit: frozenset[int] = frozenset()
+    """Which of the cells carry their unit."""
 
 
 def is_number(value: Value) -> bool:
@@ -71,6 +73,7 @@ class NumberReader:
         """
         values = np.empty(len(cells))
         gaps: dict[int, str] = {}
+        with_unit: set[int] = set()
         plain = not any(isinstance(cell, str) and "_" in cell for cell in cells)
         for k, cell in enumerate(cells):
             try:
@@ -81,12 +84,14 @@ class NumberReader:
                 number = self._carefully(cell, partial(where, k), unit)
                 if math.isnan(number):
                     gaps[k] = _why(cell)
+                elif not is_number(cell):
+                    with_unit.add(k)
             values[k] = number
         if gaps and not may_lack:
             what = f"{shown(cells[min(gaps)])} stands where a number is needed"
             raise InputError(Problem(what, where(min(gaps))))
         self._watch_points(cells, where)
-        return Numbers(values, gaps)
+        return Numbers(values, gaps, frozenset(with_unit))
 
     def finish(self) -> None:
         """Refuses a table that has decimal points and decimal commas."""

@@ -7,6 +7,7 @@ reading stays with its reason, a repeated reading stays a reading of its own.
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import partial
 from pathlib import Path
 
 import numpy as np
@@ -14,6 +15,7 @@ import numpy as np
 from inspect_cli.errors import InputError, Location, Problem
 from inspect_cli.schema.survey import SurveySettings
 from inspect_cli.spatial.arrays import Mask, Points, Vector
+from inspect_cli.surveys.distances import require_spacing
 from inspect_cli.surveys.files import SourceFile, read_cells
 from inspect_cli.surveys.grids import Grid, grid_of
 from inspect_cli.surveys.joining import joined_resistivity
@@ -21,6 +23,7 @@ from inspect_cli.surveys.layout import layout_of
 from inspect_cli.surveys.lists import ReadingList, list_of
 from inspect_cli.surveys.planes import LEVEL, TOLERANCE_M, FittedPlane, fitted_plane
 from inspect_cli.surveys.plausible import potentials_mv, resistivities_ohm_m, temperatures_c
+from inspect_cli.surveys.sentinels import refuse_sentinels
 from inspect_cli.surveys.units import UNITS
 
 
@@ -62,7 +65,7 @@ class Survey:
     plane: FittedPlane | None
     """Where readings in space were laid out on a plane."""
     settings: SurveySettings
-    """As used: with the units and the electrode that the file states."""
+    """As used: with the layout that the file has, and the units and the electrode it states."""
     assumed: tuple[str, ...]
     """The settings that matter for the result and that neither file nor user stated."""
     warnings: tuple[str, ...]
@@ -100,9 +103,11 @@ def read_survey(path: Path, settings: SurveySettings | None = None) -> Survey:
 def _survey_of_grid(path: Path, grid: Grid, source: SourceFile, settings: SurveySettings) -> Survey:
     unit = UNITS[settings.potential_unit]
     stated = set(settings.model_fields_set)
-    values = potentials_mv(
-        grid.values.ravel(), unit, "potential_unit" in stated, settings, grid.where
-    )
+    if "spacing_m" not in stated:
+        require_spacing(grid)
+    raw = grid.values.ravel()
+    refuse_sentinels(raw, unit, grid.with_unit, grid.where)
+    values = potentials_mv(raw, unit, "potential_unit" in stated, settings, grid.where)
     resistivity, stated_too, settings, files = _second_file(path, settings, grid, source)
     rows, columns = grid.values.shape
     du, dv = settings.spacing_m
@@ -122,7 +127,7 @@ def _survey_of_grid(path: Path, grid: Grid, source: SourceFile, settings: Survey
         why=tuple(grid.gaps.get(k, "") for k in range(len(values))),
         grid=SurveyGrid(rows, columns, grid.row_names, grid.column_names, settings.spacing_m),
         plane=None,
-        settings=settings,
+        settings=settings.model_copy(update={"layout": "grid"}),
         assumed=tuple(key for key in matters if key not in stated | stated_too),
         warnings=grid.cells.warnings,
     )
@@ -135,8 +140,9 @@ def _survey_of_list(
     potential = rows.numbers["potential"]
     unit = rows.units["potential"]
     is_stated = "potential_unit" in stated
+    refuse_sentinels(potential.values, unit, potential.with_unit, partial(rows.where, "potential"))
     values = potentials_mv(
-        potential.values, unit, is_stated, settings, lambda k: rows.where("potential", k)
+        potential.values, unit, is_stated, settings, partial(rows.where, "potential")
     )
     own = _own_resistivity(rows)
     if own is not None and settings.resistivity is not None:
@@ -170,13 +176,13 @@ def _survey_of_list(
 
 
 def _as_used(rows: ReadingList, settings: SurveySettings) -> SurveySettings:
-    """The settings with what the headings state."""
+    """The settings with what the headings state, and what the file turned out to be."""
     units = {"potential": "potential_unit", "resistivity": "resistivity_unit"}
     stated: dict[str, object] = {
         key: rows.units[role].key for role, key in units.items() if role in rows.units
     }
     length = next(rows.units[role] for role in ("x", "u") if role in rows.units)
-    stated["coordinate_unit"] = length.key
+    stated |= {"coordinate_unit": length.key, "layout": "list"}
     if rows.electrode:
         stated["electrode"] = rows.electrode
     return settings.model_copy(update=stated)

@@ -16,6 +16,8 @@ from inspect_cli.surveys.cells import EXPECTED, Cells, Value
 
 LOOKED_AT = 50
 """Lines that are asked for the delimiter."""
+TEXT_EXPECTED = "CSV or an Excel workbook (.xlsx) is expected"
+"""What a file is told that is neither."""
 _CONTROL = re.compile("[\x00-\x08\x0b\x0e-\x1f\x7f]")
 
 
@@ -70,14 +72,15 @@ def _decoded(data: bytes, file: str) -> str:
     try:
         text = data.decode(_encoding(data))
     except UnicodeDecodeError as error:
-        what = f"cannot be read as a table: {error.reason} at byte {error.start + 1}"
-        raise InputError(Problem(what, Location(file), "save the file as UTF-8")) from error
+        byte = data[error.start : error.start + 1].hex().upper()
+        what = f"this is no text: byte {error.start + 1} (0x{byte}) is no character"
+        raise InputError(Problem(what, Location(file), TEXT_EXPECTED)) from error
     found = _CONTROL.search(text)
     if found is None:
         return text
     line = text.count("\n", 0, found.start()) + 1
-    what = f"cannot be read as a table: the character U+{ord(found[0]):04X} is no text"
-    raise InputError(Problem(what, Location(file, line), "export the table as CSV or .xlsx"))
+    what = f"this is no text: it holds the control character U+{ord(found[0]):04X}"
+    raise InputError(Problem(what, Location(file, line), TEXT_EXPECTED))
 
 
 def _encoding(data: bytes) -> str:

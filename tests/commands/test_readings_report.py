@@ -292,7 +292,43 @@ def test_a_folder_is_no_file_of_readings(
 ) -> None:
     monkeypatch.chdir(tmp_path)
     assert cli.run(["report", "--readings", name]) == 2
-    assert f"{name} is a folder" in capsys.readouterr().err
+    told = " ".join(capsys.readouterr().err.split())
+    assert f"{name} is a folder" in told
+    assert "name one file of readings" in told
+
+
+def test_a_report_has_one_file(
+    small: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    other = tmp_path / "other.csv"
+    other.write_text(SMALL, encoding="utf-8")
+    asked = ["report", "--readings", str(small), "--readings", str(other)]
+    assert cli.run([*asked, "--out", str(tmp_path / "out")]) == 2
+    told = " ".join(capsys.readouterr().err.split())
+    assert "--readings is given 2 times" in told
+    assert "one file, one surface, one report" in told
+    assert not (tmp_path / "out").exists()
+
+
+def test_more_readings_than_a_model_takes_are_refused_before_anything_is_written(
+    small: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.setattr("inspect_cli.exchange.ifc.MAX_POINTS", 8)
+    out = tmp_path / "out"
+    asked = ["report", "--readings", str(small), "--out", str(out), "--export"]
+    assert cli.run([*asked, "geojson,ifc"]) == 2
+    assert "9 readings are too many" in capsys.readouterr().err
+    assert not out.exists()
+    assert cli.run([*asked, "geojson"]) == 0
+
+
+def test_the_method_tells_what_the_file_turned_out_to_be(small: Path, tmp_path: Path) -> None:
+    assert reported(tmp_path / "a", "--readings", str(small))["settings"]["layout"] == "grid"
+    assert "Spacing of a grid" in (tmp_path / "a" / "report.html").read_text(encoding="utf-8")
+    file = tmp_path / "list.csv"
+    file.write_text("x_m,y_m,E\n0,0,-300\n1,0,-310\n", encoding="utf-8")
+    assert reported(tmp_path / "b", "--readings", str(file))["settings"]["layout"] == "list"
+    assert "Spacing of a grid" not in (tmp_path / "b" / "report.html").read_text(encoding="utf-8")
 
 
 def test_settings_that_are_a_folder_are_not_passed_over(

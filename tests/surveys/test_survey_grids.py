@@ -59,13 +59,14 @@ def test_the_same_grid_in_its_usual_shapes(tmp_path: Path, text: str) -> None:
 
 @pytest.mark.parametrize("encoding", ["utf-8", "utf-8-sig", "utf-16", "utf-16-le", "utf-16-be"])
 def test_encodings(tmp_path: Path, encoding: str) -> None:
-    survey = read(tmp_path, LABELLED.replace("B", "Süd").encode(encoding))
-    assert survey.labels[0] == "2/Süd"
+    survey = read(tmp_path, LABELLED.replace("\n2", "\nSüd").encode(encoding))
+    assert survey.labels[0] == "Süd/B"
     assert survey.potential_mv[0] == -350.5
 
 
 def test_latin_1(tmp_path: Path) -> None:
-    assert read(tmp_path, LABELLED.replace("B", "Süd").encode("latin-1")).labels[0] == "2/Süd"
+    text = LABELLED.replace("\n2", "\nSüd")
+    assert read(tmp_path, text.encode("latin-1")).labels[0] == "Süd/B"
 
 
 @pytest.mark.parametrize(
@@ -74,7 +75,7 @@ def test_latin_1(tmp_path: Path) -> None:
         ("-350 -340\n-250 -240\n", ("R1C1", "R1C2", "R2C1", "R2C2")),
         ("A,C\n-350,-340\n-250,-240\n", ("R1/A", "R1/C", "R2/A", "R2/C")),
         ("P,-350,-340\nQ,-250,-240\n", ("P/C1", "P/C2", "Q/C1", "Q/C2")),
-        ("row,0.0,0.1\n1,-350,-340\n2,-250,-240\n", ("1/0.0", "1/0.1", "2/0.0", "2/0.1")),
+        ("row,0,1\n1,-350,-340\n2,-250,-240\n", ("1/0", "1/1", "2/0", "2/1")),
         # A spreadsheet's columns, of which some could name a list's: X, Y and E are no headings.
         ("row,E,F,X,Y\n1,-1,-2,-3,-4\n", ("1/E", "1/F", "1/X", "1/Y")),
         ("-350\n-340\n", ("R1C1", "R2C1")),
@@ -82,6 +83,54 @@ def test_latin_1(tmp_path: Path) -> None:
 )
 def test_labels(tmp_path: Path, text: str, labels: tuple[str, ...]) -> None:
     assert read(tmp_path, text).labels == labels
+
+
+GRID = "{},{}\n{},-350,-340,-330\n{},-250,-240,-230\n"
+
+
+@pytest.mark.parametrize(
+    ("columns", "rows", "where", "said"),
+    [
+        ("0,0.5,1.0", ("0", "0.5"), "B1: the names of the columns and rows", "--spacing-m 0.5x0.5"),
+        ("0,0.1,0.2", ("0.25", "0"), "B1: the names of the columns and", "--spacing-m 0.1x0.25"),
+        ("0,20,40", ("50", "0"), "B1: the names of the columns and rows", "--spacing-m 20x50"),
+        ("1,2,3", ("0", "10"), "A2: the names of the columns and rows", "--spacing-m 1x10"),
+        ("1.0,2.0,3.0", ("A", "B"), "B1: the names of the columns look", "--spacing-m 1xDV"),
+        ("A,B,C", ("0", "0.5"), "A2: the names of the rows look", "--spacing-m DUx0.5"),
+        (
+            "0,0.5,1.5",
+            ("1", "2"),
+            "B1: the names of the columns",
+            "their steps differ: give a list",
+        ),
+    ],
+)
+@pytest.mark.parametrize("corner", ["", "row"])
+def test_names_that_are_distances_need_a_spacing(
+    tmp_path: Path, corner: str, columns: str, rows: tuple[str, str], where: str, said: str
+) -> None:
+    text = GRID.format(corner, columns, *rows)
+    told = refusal(tmp_path, text)
+    assert f"cell {where}" in told
+    assert "their unit is not known" in told
+    assert said in told
+    survey = read(tmp_path, text, spacing_m=[0.5, 0.25])
+    assert survey.uv_m[:, 0].max() == 1.0
+    assert survey.labels[0] == f"{rows[0]}/{columns.split(',')[0]}"
+
+
+@pytest.mark.parametrize(
+    ("columns", "rows"),
+    [
+        *(("1,2,3", ("1", "2")), ("0,1,2", ("0", "1")), ("B,D,F", ("2", "4"))),
+        *(("1,3,5", ("2", "4")), ("A,B,C", ("10", "20")), ("3,2,1", ("P 1", "P 2"))),
+        *(("1,2,4", ("1", "2")), ("7,3,5", ("0.5", "0.5a")), ("0.5,0.1,0.7", ("1", "2"))),
+    ],
+)
+def test_names_that_only_count_need_none(
+    tmp_path: Path, columns: str, rows: tuple[str, str]
+) -> None:
+    assert "spacing_m" in read(tmp_path, GRID.format("row", columns, *rows)).assumed
 
 
 def test_places_run_right_and_up_from_the_bottom_left(tmp_path: Path) -> None:
@@ -138,8 +187,12 @@ def test_gaps_are_kept_with_their_reason(tmp_path: Path) -> None:
         ("\n# nothing\n", "s.csv:1:1: cell A1: the file is empty"),
         (",,\n,,\n", "s.csv:1:1: cell A1: the file is empty"),
         ('"a,-1\n', "s.csv:1: is not CSV"),
-        (b"\x89PNG\r\n\x1a\n\x00\x00\x01", "cannot be read as a table"),
-        (b"\xff\xfe\x00", "s.csv: cannot be read as a table"),
+        (
+            b"\x89PNG\r\n\x1a\n\x00\x00\x01",
+            "this is no text: it holds the control character U+001A",
+        ),
+        (b"\xff\xfe\x00", "s.csv: this is no text: byte 3 (0x00) is no character"),
+        (b"a,\x81\n", "s.csv: this is no text: byte 3 (0x81) is no character\n    CSV or an Excel"),
         # Names that stand where readings are expected.
         ("Station,A,B\n1,-1,-2\n2,-3,-4\n3,-5,-6\n", "cell A2: 1 and what follows look like"),
         ("1,2,3\n-350,-340,-330\n", "cell A1: 1 and what follows look like the columns' names"),
@@ -201,6 +254,33 @@ def test_potentials_near_zero_are_read(tmp_path: Path) -> None:
     assert read(tmp_path, text, potential_unit="mV").potential_mv.tolist() == [-350.2, -0.4]
 
 
+@pytest.mark.parametrize("value", ["-999", "-999.0", "999", "-9999", "9999", "−99999"])
+@pytest.mark.parametrize("settings", [{}, {"sign": "as_read"}, {"sign": "inverted"}])
+def test_a_number_for_no_reading_is_refused(
+    tmp_path: Path, value: str, settings: dict[str, object]
+) -> None:
+    said = refusal(tmp_path, f"-100,{value},-300\n-110,{value},-350\n", **settings)
+    assert "s.csv:1:6: cell B1: " in said
+    assert "(2 times) far from all other readings stands for no reading" in said
+    assert "leave the cell empty" in said
+    assert ("with the unit, if that was read" in said) == ("9999" not in value)
+    listed = refusal(tmp_path, f"x,y,E [V]\n0,0,-0.3\n1,0,{value}\n", **settings)
+    assert "cell C3: " in listed
+    assert listed.endswith("stands for no reading\n    leave the cell empty")
+
+
+def test_a_true_reading_that_looks_like_none_is_read(tmp_path: Path) -> None:
+    values = [-100, -999, -300, -110, -999, -350]
+    stated = read(tmp_path, "-100,-999 mV,-300\n-110,-999,-350\n")
+    assert stated.potential_mv.tolist() == values
+    near = read(tmp_path, "-940,-999,-1020\n")
+    assert near.potential_mv.tolist() == [-940, -999, -1020]
+    plausible = read(tmp_path, "-100,0,-300\n-99,99,-350\n")
+    assert plausible.valid.all()
+    listed = read(tmp_path, "x,y,E\n0,0,-300\n1,0,-999mV\n")
+    assert listed.potential_mv.tolist() == [-300, -999]
+
+
 def test_volts_and_signs(tmp_path: Path) -> None:
     survey = read(tmp_path, "-0.35,-0.3405\n-0.1,0.02\n", potential_unit="V")
     assert survey.potential_mv.tolist() == [-350.0, -340.5, -100.0, 20.0]
@@ -214,6 +294,71 @@ def test_a_list_without_names_is_no_grid(tmp_path: Path) -> None:
     assert "s.csv:1:1: cell A1: the first columns look like coordinates" in said
     assert "layout: list or layout: grid" in said
     assert read(tmp_path, text, layout="grid").potential_mv.size == 12
+
+
+LIST = "{}\n0{d}0{d}-100\n1{d}0{d}-380\n0{d}1{d}-120\n1{d}1{d}-390\n"
+
+
+@pytest.mark.parametrize(
+    ("names", "said"),
+    [
+        ("Station,Offset,Reading", "A1: names of columns that are not understood: 'Station', 'Of"),
+        ("Spalte;Zeile;Messwert", "not understood: 'Spalte', 'Zeile', 'Messwert'"),
+        ("Chainage,Width,mV", "but no x and y; not understood: 'Chainage', 'Width'"),
+        ("East,North,Value", "of coordinates, but none of potentials; not understood: 'Value'"),
+        ("a,b,c", "the first columns look like coordinates and have no such names"),
+        ("A,B,C", "the first columns look like coordinates"),
+        ("C1;C2;C3", "the first columns look like coordinates"),
+    ],
+)
+def test_a_list_with_other_names_is_no_grid(tmp_path: Path, names: str, said: str) -> None:
+    text = LIST.format(names, d=";" if ";" in names else ",")
+    told = refusal(tmp_path, text)
+    assert said in told
+    assert "x_m,y_m,potential_mv" in told
+    assert "layout: grid" in told
+    grid = read(tmp_path, text, layout="grid").grid
+    assert grid is not None
+    assert grid.columns == 3
+
+
+@pytest.mark.parametrize("corner", ["", "Zeile", "row"])
+@pytest.mark.parametrize("names", ["Spalte,Messwert", "East 1,West 1", "A,Value"])
+def test_words_beside_names_of_rows_are_no_columns(tmp_path: Path, corner: str, names: str) -> None:
+    text = f"{corner},{names}\n1,0,-100\n2,0,-380\n"
+    assert "not understood: '" + names.split(",")[0] in refusal(tmp_path, text)
+    assert read(tmp_path, text, layout="grid").labels[0] == f"1/{names.split(',')[0]}"
+
+
+def test_coordinates_are_known_beside_gaps_and_decimal_commas(tmp_path: Path) -> None:
+    for text in (
+        "a;b;c\n0,5;0;-100\n1,5;0;-\n",
+        "0,5;0;-100\n1,5;0;-\n",
+        ",a,b,c\n0,1,2,-3\n1,2,2,-4\n",
+    ):
+        assert "the first columns look like coordinates" in refusal(tmp_path, text)
+
+
+@pytest.mark.parametrize(
+    "names",
+    ["A,C,AA", "H,F,D", "a,b,c", "C1,C2,C3", "P 3,P 2,P 1", "Spalte 4,Spalte 5,spalte 6"],
+)
+@pytest.mark.parametrize("corner", ["", "row,", ",", "Achse,"])
+def test_names_that_count_are_a_grid(tmp_path: Path, names: str, corner: str) -> None:
+    label = "P," if corner else ""
+    survey = read(tmp_path, f"{corner}{names}\n{label}-100,-120,-300\n{label and 'Q,'}-1,-2,-3\n")
+    assert survey.grid is not None
+    assert survey.grid.column_names == tuple(names.split(","))
+    assert survey.potential_mv.tolist() == [-100, -120, -300, -1, -2, -3]
+
+
+def test_a_grid_may_be_stated_for_both_files(tmp_path: Path) -> None:
+    text = "row,North,South\n1,{},{}\n2,{},{}\n"
+    (tmp_path / "rho.csv").write_text(text.format(1, 2, 3, 4))
+    readings = text.format(-100, -200, -300, -400)
+    assert "not understood: 'South'" in refusal(tmp_path, readings)
+    survey = read(tmp_path, readings, layout="grid", resistivity="rho.csv")
+    assert survey.resistivity_ohm_m.tolist() == [10, 20, 30, 40]
 
 
 def test_resistivities_of_the_same_grid(tmp_path: Path) -> None:

@@ -36,6 +36,8 @@ def refusal(folder: Path, text: str, **settings: object) -> str:
         ("pos_x_mm,pos_y_mm,potential_v", "1500,250,-0.35"),
         ("E [mV vs. CSE],Y [m],X [m]", "-350,0.25,1.5"),
         ("Nr,X,Y,E", "1,1.5,0.25,-350"),
+        ("Point,Easting,Northing,mV", "1,1.5,0.25,-350"),
+        ("Rechtswert [mm],Hochwert [mm],mV (CSE)", "1500,250,-350"),
     ],
 )
 def test_headings_in_many_hands(tmp_path: Path, names: str, row: str) -> None:

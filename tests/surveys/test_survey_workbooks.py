@@ -97,7 +97,8 @@ def test_a_table_may_stand_anywhere_below_comments(tmp_path: Path) -> None:
         ("-0.3 V", "'-0.3 V' is in V where the column is in mV"),
         ("=B2-10", "a formula without a stored value"),
         (-0.3, "-0.3 looks like V among readings in mV"),
-        (-9999, "-9999 mV is no half-cell potential"),
+        (-9998, "-9998 mV is no half-cell potential"),
+        (-9999, "-9999 far from all other readings stands for no reading"),
     ],
 )
 def test_cells_that_are_no_potentials(tmp_path: Path, value: object, said: str) -> None:
