@@ -129,12 +129,14 @@ def gradient_findings(
             "the criterion compares those within 1 m"
         )
     elif not len(minima.index):
-        why = "no negative minimum is 20 mV deep"
+        why = f"no negative minimum is {minima.least_depth_mv:.0f} mV deep"
     return GradientFindings(
         minima=len(minima.index),
         active=int(np.count_nonzero(minima.is_active)),
         not_judged=not_judged,
         steepest=tuple(steepest),
+        least_depth_mv=minima.least_depth_mv,
+        scatter_mv=minima.scatter_mv,
         why=why,
     )
 

@@ -19,7 +19,7 @@ FINDINGS: tuple[Said, ...] = (
     say("a single place has no spacing; state the pitch"),
     say("fewer than two valid readings have no neighbours"),
     say("readings are {apart} m apart; the criterion compares those within 1 m"),
-    say("no negative minimum is 20 mV deep"),
+    say("no negative minimum is {depth} mV deep"),
     say("no place was read twice"),
     # Populations.
     say("valid readings: {n}; two populations ask for at least {least}"),

@@ -101,6 +101,10 @@ class GradientFindings(Strict):
     """Minima without another reading within 1 m."""
     steepest: tuple[Minimum, ...]
     """The steepest of them first, at most as many as the summary has room for."""
+    least_depth_mv: float = 20.0
+    """How deep a hollow had to be for its bottom to count."""
+    scatter_mv: float | None = None
+    """Standard deviation of a single reading around its neighbours; None where it is not known."""
     why: str = ""
     """Why there is nothing to judge."""
 
