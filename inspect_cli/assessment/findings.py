@@ -148,7 +148,7 @@ def mixture_findings(mixture: Mixture | str) -> MixtureFindings:
     if not mixture.is_supported:
         return MixtureFindings(
             verdict="one population",
-            why="a second population does not lower the BIC by more than 10",
+            why=mixture.why_one,
             bic_one=mixture.one_bic,
             bic_two=mixture.bic,
         )

@@ -16,14 +16,15 @@ within 1 m, is made definite here:
 Readings that only scatter have hollows too, the deepest of them as deep as their whole range. Of n
 independent normal readings with standard deviation σ that is expected to be 2 √(2 ln n) σ at most
 (Boucheron, Lugosi & Massart, Concentration Inequalities (2013), section 2.5), but σ is not known:
-told from the readings (``scatter_mv``) it is too small often enough that 6 to 11 % of surveys of
+told from the readings (``scatter_mv``) it is too small often enough that 7 to 11 % of surveys of
 100 to 400 readings have a deeper one. A range above 2 z σ takes a reading more than z σ from the
 middle, above or below it, so that whatever n
 
     P(range > 2 z σ) ≤ 2 n (1 − Φ(z)) = 5 %    with    z = Φ⁻¹(1 − 0.05/(2 n))
 
 (Bonferroni). This depth, ``noise_depth_mv``, is 7 σ among a hundred readings and 7.7 σ among four
-hundred. The bound is wide enough for the error of σ: of such surveys 1 to 4 % have a deeper hollow.
+hundred. The bound is wide enough for the error of σ: 1 to 3 % of such surveys have a deeper hollow,
+of surveys of 20 readings 6 %.
 What changes from one reading to the next and not beyond counts as scatter, whether the voltmeter
 or the concrete made it.
 

@@ -9,7 +9,11 @@ equal readings says nothing of concrete.
 
 Two populations are called for when their BIC is lower than that of a single normal population by
 more than 10, "very strong" evidence (Kass & Raftery, J. Am. Stat. Assoc. 90 (1995) 773–795); the
-three further parameters alone cost 3 ln n. Which population is the active one follows from their
+three further parameters alone cost 3 ln n. And both must be populations: a mean and a spread are of
+a handful of readings, so the smaller one must hold at least 5 by expectation, n w or n (1 − w).
+Fewer are outliers. It is a number and no share, because a small active part of a large survey has
+as much to tell them from as a large part of a small one. Nor may the smaller one be as narrow as
+the resolution beside a wider one: that is a value that repeats. Which population is the active one follows from their
 order only: whether the structure has active steel at all, the potentials' shape cannot tell.
 
 Standard errors are those of the observed information, the inverse of −∂² log L/∂θ², and of the
@@ -35,6 +39,8 @@ STARTS: Final = (0.1, 0.25, 0.5, 0.75, 0.9)
 RESOLUTIONS_MV: Final = (20.0, 10.0, 5.0, 2.0, 1.0)
 """To which potentials are recorded; ASTM C876 asks for a meter that can be read to 20 mV."""
 SUPPORTED_BIC: Final = 10.0
+LEAST_HELD: Final = 5.0
+"""Readings of the smaller population; the least expected number of a class, by Cochran's rule."""
 PARAMETERS: Final = (2, 5)
 """Of one population and of two."""
 MAX_STEPS: Final = 2000
@@ -64,11 +70,30 @@ class Mixture:
     """Of a single normal population."""
     bic: float
     one_bic: float
+    readings: int
+    least_sd_mv: float
+    """The readings' resolution; no population is narrower."""
 
     @property
     def is_supported(self) -> bool:
-        """Whether the second population is called for."""
-        return self.one_bic - self.bic > SUPPORTED_BIC
+        """Whether there is a second population."""
+        return not self.why_one
+
+    @property
+    def why_one(self) -> str:
+        """Why there is no second population; empty where there is."""
+        if self.one_bic - self.bic <= SUPPORTED_BIC:
+            return "a second population does not lower the BIC by more than 10"
+        smaller = 0 if self.weight < 0.5 else 1
+        held = self.readings * (self.weight if smaller == 0 else 1.0 - self.weight)
+        if held < LEAST_HELD:
+            return _outliers(held)
+        if self.sd_mv[smaller] <= self.least_sd_mv < self.sd_mv[1 - smaller]:
+            return (
+                "the second would be as narrow as the readings' resolution: that is a value that "
+                "repeats, not a population"
+            )
+        return ""
 
     @property
     def passive_limit_mv(self) -> float:
@@ -104,6 +129,15 @@ def fitted(potential_v: Vector) -> Mixture | str:
     if best[1] > best[3]:
         best = np.array([1.0 - best[0], best[3], best[4], best[1], best[2]])
     return _described(values, counts, least_mv, best, best_likelihood)
+
+
+def _outliers(held: float) -> str:
+    if held < 1.5:
+        return "the second would hold 1 reading: that is an outlier, not a population"
+    return (
+        f"the second would hold {held:.1f} readings by expectation, fewer than {LEAST_HELD:.0f}: "
+        "those are outliers, not a population"
+    )
 
 
 def resolution_of(mv: Vector) -> float:
@@ -229,6 +263,8 @@ def _described(
         one_log_likelihood=float(one),
         bic=PARAMETERS[1] * math.log(n) - 2.0 * likelihood,
         one_bic=PARAMETERS[0] * math.log(n) - 2.0 * float(one),
+        readings=int(n),
+        least_sd_mv=least_sd,
     )
 
 

@@ -25,6 +25,15 @@ FINDINGS: tuple[Said, ...] = (
     say("valid readings: {n}; two populations ask for at least {least}"),
     say("all readings are equal to their resolution"),
     say("a second population does not lower the BIC by more than 10"),
+    say("the second would hold 1 reading: that is an outlier, not a population"),
+    say(
+        "the second would hold {n} readings by expectation, fewer than {least}: those are "
+        "outliers, not a population"
+    ),
+    say(
+        "the second would be as narrow as the readings' resolution: that is a value that repeats, "
+        "not a population"
+    ),
     say("one population has no readings"),
     say("a population is as narrow as the readings' resolution"),
     say("the likelihood is flat in one direction: the populations cannot be told apart"),
