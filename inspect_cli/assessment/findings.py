@@ -229,6 +229,7 @@ def uncertainty_findings(
         max_mv=1e3 * float(np.max(budget.total_v[valid])) if some else None,
         reading_mv=median_mv(budget.reading_v),
         repeatability_mv=median_mv(budget.repeatability_v),
+        conversion_mv=1e3 * budget.conversion_v,
         temperature_mv=1e3 * budget.temperature_v,
         single_reading_mv=1e3 * budget.single_v,
         single_reading_from=budget.single_from,

@@ -13,8 +13,9 @@ three further parameters alone cost 3 ln n. And both must be populations: a mean
 a handful of readings, so the smaller one must hold at least 5 by expectation, n w or n (1 − w).
 Fewer are outliers. It is a number and no share, because a small active part of a large survey has
 as much to tell them from as a large part of a small one. Nor may the smaller one be as narrow as
-the resolution beside a wider one: that is a value that repeats. Which population is the active one follows from their
-order only: whether the structure has active steel at all, the potentials' shape cannot tell.
+the resolution beside a wider one: that is a value that repeats. Which population is the active one
+follows from their order only: whether the structure has active steel at all, the potentials' shape
+cannot tell.
 
 Standard errors are those of the observed information, the inverse of −∂² log L/∂θ², and of the
 threshold by implicit differentiation.

@@ -119,6 +119,7 @@ def uncertainty_blocks(summary: SurfaceAssessment) -> list[Block]:
     rows: list[list[Text]] = [
         [say("reading itself (noise, drift, wetting, load of the meter)"), _mv(found.reading_mv)],
         [say("repeatability of a place's mean"), _mv(found.repeatability_mv)],
+        *([[say("conversion to CSE"), _mv(found.conversion_mv)]] if found.conversion_mv else []),
         [say("temperature"), _mv(found.temperature_mv)],
         [say("together, median of the points"), _mv(found.median_mv)],
         [say("together, least certain point"), _mv(found.max_mv)],

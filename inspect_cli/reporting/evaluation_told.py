@@ -154,8 +154,8 @@ def evaluation_method() -> Facts:
                 say("Gradient criterion"),
                 say(
                     "RILEM TC 154-EMC: a minimum is active where the potential rises by 100 mV "
-                    "within 1 m; that a minimum is at least 20 mV deep, and deeper than scatter makes "
-                    "one, is the project's own choice"
+                    "within 1 m; that a minimum is at least 20 mV deep, and deeper than scatter "
+                    "makes one, is the project's own choice"
                 ),
             ),
             (

@@ -180,6 +180,8 @@ class UncertaintyFindings(Strict):
     max_mv: float | None
     reading_mv: float | None
     repeatability_mv: float | None
+    conversion_mv: float = 0.0
+    """By the conversion to CSE; 0 where a CSE was read with."""
     temperature_mv: float
     single_reading_mv: float
     """Standard deviation of one reading at a place."""

@@ -58,13 +58,26 @@ def test_contributions_add_by_their_squares() -> None:
     np.testing.assert_allclose(1e3 * budget.total_v, [expected, expected, np.nan], rtol=1e-6)
 
 
-@pytest.mark.parametrize(("electrode", "electrodes"), [("CSE", 2), ("CSE", 7), ("SCE", 1)])
+@pytest.mark.parametrize(("electrode", "electrodes"), [("CSE", 2), ("CSE", 7), ("SCE", 2)])
 def test_another_electrode_doubles_the_limit(electrode: str, electrodes: int) -> None:
     places = merged(readings(grid(2, 1, 0.2), [-300, -100]))
-    one = budget_of(places, basis_of("CSE"))
+    one = budget_of(places, basis_of(electrode))
+    assert "10 mV" in one.single_from
     two = budget_of(places, basis_of(electrode), electrodes=electrodes)
     assert two.single_v == pytest.approx(2.0 * one.single_v)
     assert "20 mV" in two.single_from
+
+
+@pytest.mark.parametrize("electrode", ["SCE", "Ag/AgCl sat. KCl"])
+def test_one_electrode_of_another_kind_is_still_one(electrode: str) -> None:
+    """Its repeats agree as a CSE's do; what the conversion adds is ±5 mV, 2.9 mV."""
+    places = merged(readings(grid(2, 1, 0.2), [-300, -100]))
+    own, other = (budget_of(places, basis_of(name)) for name in ("CSE", electrode))
+    assert other.single_v == own.single_v
+    assert (own.conversion_v, 1e3 * other.conversion_v) == (0.0, pytest.approx(5.0 / math.sqrt(3)))
+    more = 1e6 * (other.total_v**2 - own.total_v**2)
+    np.testing.assert_allclose(more, 25.0 / 3.0)
+    np.testing.assert_allclose(1e6 * (other.alone_v**2 - own.alone_v**2), 25.0 / 3.0)
 
 
 def test_the_surveys_own_repeatability_counts_when_it_is_known_well() -> None:
