@@ -8,7 +8,9 @@ reading          of the measurement itself (``reading_sd_v``): sample noise, dri
 repeatability    s/√m of the mean of m readings at a place, s pooled over the places that were read
                  more than once, if these give 10 degrees of freedom; else from ASTM C876's limit
                  for the difference of two readings with one electrode, 10 mV, or with two, 20 mV.
-                 A limit r that 95 % of differences keep means s = r/(1.96 √2) (ISO 5725-6)
+                 A limit r that 95 % of differences keep means s = r/(1.96 √2) (ISO 5725-6). Where
+                 the readings of a place themselves scatter by more, s is theirs: two that differ
+                 by Δ have a mean that is known to |Δ|/2
 conversion       of a reading that was taken with another electrode: the difference of the standard
                  potentials holds to ±5 mV, see ``CONVERSION_HOLDS_V``; the same for all of a survey
 temperature      what is known and not corrected: 0.9 mV/°C |T − 22.2 °C|; the whole ±4.95 mV of the
@@ -69,7 +71,9 @@ class Budget:
     """0 for a CSE."""
     temperature_v: float
     single_v: float
-    """Standard deviation of a single reading at a place, s."""
+    """Standard deviation of a single reading at a place, s, where the place says nothing else."""
+    at_place_v: Vector
+    """(m,) s of each place: its own readings' where that is larger."""
     single_from: str
     """Where s comes from."""
 
@@ -80,7 +84,7 @@ class Budget:
         A place that was read several times is surer than each of its readings.
         """
         shared = self.conversion_v**2 + self.temperature_v**2
-        return np.asarray(np.sqrt(self.reading_v**2 + self.single_v**2 + shared))
+        return np.asarray(np.sqrt(self.reading_v**2 + self.at_place_v**2 + shared))
 
 
 def reading_sd_v(
@@ -131,7 +135,8 @@ def budget_of(merged: Merged, basis: Basis, *, electrodes: int = 1) -> Budget:
     if merged.repeatability_v is not None and merged.degrees_of_freedom >= ENOUGH_FREEDOM:
         single_v = merged.repeatability_v
         single_from = f"repeated readings, {merged.degrees_of_freedom} degrees of freedom"
-    repeatability = single_v / np.sqrt(np.maximum(merged.counts, 1))
+    at_place = np.fmax(single_v, merged.within_sd_v)  # NaN of a place that was read once
+    repeatability = at_place / np.sqrt(np.maximum(merged.counts, 1))
     conversion_v, temperature_v = conversion_sd_v(basis), temperature_sd_v(basis)
     shared = conversion_v**2 + temperature_v**2
     total = np.sqrt(points.measurement_sd_v**2 + repeatability**2 + shared)
@@ -142,6 +147,7 @@ def budget_of(merged: Merged, basis: Basis, *, electrodes: int = 1) -> Budget:
         conversion_v=conversion_v,
         temperature_v=temperature_v,
         single_v=single_v,
+        at_place_v=at_place,
         single_from=single_from,
     )
 

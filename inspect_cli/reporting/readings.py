@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
+from inspect_cli.assessment.findings import disagreement
 from inspect_cli.reporting.content import (
     Block,
     Boxes,
@@ -64,12 +65,20 @@ def _summary(
     read = evaluated.assessed.summary.valid
     caveats = [*reading_caveats([evaluated], probed=False), *few_readings(read)]
     return [
-        Notes([SPACING_ASSUMED] if "spacing_m" in result.assumed else [], "warnings"),
+        Notes(_warnings(result), "warnings"),
         *finding(findings(points, [evaluated])),
         Boxes(reading_boxes(points)),
         Heading(say("What this report does not say")),
         Notes(caveats, "caveats"),
     ]
+
+
+def _warnings(result: ReadingsResult) -> list[Text]:
+    """What cannot be overlooked."""
+    told: list[Text] = [SPACING_ASSUMED] if "spacing_m" in result.assumed else []
+    for surface in result.assessment:
+        told += [recorded(warning) for warning in disagreement(surface.repeatability)]
+    return told
 
 
 def _cover(result: ReadingsResult) -> Cover:

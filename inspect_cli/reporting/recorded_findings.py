@@ -21,6 +21,15 @@ FINDINGS: tuple[Said, ...] = (
     say("readings are {apart} m apart; the criterion compares those within 1 m"),
     say("no negative minimum is {depth} mV deep"),
     say("no place was read twice"),
+    # Readings of a place that contradict each other.
+    say(
+        "The readings at the place of point {label} differ by {spread} mV; repeated readings "
+        "should agree within 10 mV (ASTM C876)."
+    ),
+    say(
+        "At {n} places the readings differ by more than 20 mV, most at the place of point {label}, "
+        "by {spread} mV; repeated readings should agree within 10 mV (ASTM C876)."
+    ),
     # Populations.
     say("valid readings: {n}; two populations ask for at least {least}"),
     say("all readings are equal to their resolution"),

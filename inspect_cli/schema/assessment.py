@@ -170,6 +170,12 @@ class RepeatabilityFindings(Strict):
     """Standard deviation within a place, pooled."""
     greatest_sd_mv: float | None
     """Of a single place."""
+    disagreeing: int = 0
+    """Places whose readings differ by more than 20 mV."""
+    worst: str | None = None
+    """The point at that of them where they differ most."""
+    worst_spread_mv: float | None = None
+    """Greatest less least of its readings."""
     why: str = ""
 
 
