@@ -67,6 +67,8 @@ def _not_judged(found: GradientFindings) -> Text:
 
 
 def _depth(found: GradientFindings) -> Text:
+    if found.scatter_mv is None and not found.minima:
+        return ""  # why there is none was said
     if found.scatter_mv is None:
         return say(
             "A minimum counts if it is at least {depth} mV deep; how much a single reading "

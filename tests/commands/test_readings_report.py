@@ -145,7 +145,7 @@ def test_readings_of_a_place_that_differ_are_warned_of(
     result = reported(tmp_path / "out", "--readings", str(file))
     (warning,) = result["warnings"]
     assert warning.startswith("The readings at the place of point 2 differ by 264 mV;")
-    assert f"warning: {warning}" in capsys.readouterr().out
+    assert f"warning: {warning}" in capsys.readouterr().err
     assert warning in (tmp_path / "out" / "report.html").read_text(encoding="utf-8")
     assert surface_of(result)["uncertainty"]["doubtful"] == 1
 
