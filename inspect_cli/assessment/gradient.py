@@ -26,7 +26,9 @@ middle, above or below it, so that whatever n
 hundred. The bound is wide enough for the error of σ: 1 to 3 % of such surveys have a deeper hollow,
 of surveys of 20 readings 6 %.
 What changes from one reading to the next and not beyond counts as scatter, whether the voltmeter
-or the concrete made it.
+or the concrete made it, up to ``MOST_SCATTER_MV``: more is steel that so coarse a spacing does not
+resolve, of which the readings cannot tell how deep its hollows are. They then count as where the
+scatter is not known, since a corroding place that is passed over costs more than one looked at.
 
 Source: Elsener and others, RILEM TC 154-EMC, Materials and Structures 36 (2003) 461–471.
 """
@@ -43,6 +45,7 @@ from numpy.typing import NDArray
 
 from inspect_cli.assessment.classes import millivolts
 from inspect_cli.assessment.spacing import Spacing, side_by_side
+from inspect_cli.assessment.uncertainty import LIMIT_OVER_SD
 from inspect_cli.compiled import kernel
 from inspect_cli.schema.tasks import CLOSER_SPACING_MV
 from inspect_cli.spatial.arrays import Points, Vector
@@ -55,6 +58,9 @@ BY_SCATTER: Final = 0.05
 """Surveys of scatter alone that may have a hollow deep enough, at most."""
 MIN_DIFFERENCES: Final = 20
 """Readings with two neighbours or more that tell the scatter; fewer do not."""
+MOST_SCATTER_MV: Final = CLOSER_SPACING_MV / LIMIT_OVER_SD
+"""54 mV: with more, over 5 % of neighbours differ by the 150 mV at which ASTM C876 asks for a
+closer spacing, so that the standard takes it for the structure's."""
 MAD_TO_SD: Final = 1.4826
 """Of a normal population, its standard deviation over the median distance from its middle."""
 REACH_M: Final = WITHIN_M + 1e-9
@@ -107,7 +113,7 @@ def minima_of(uv_m: Points, potential_v: Vector, pairs: NDArray[np.intp]) -> Min
     depth = hollow_depths(mv, valid[np.argsort(mv[valid], kind="stable")], pairs)
     scatter = scatter_mv(mv, pairs)
     least = LEAST_DEPTH_MV
-    if scatter is not None:
+    if scatter is not None and scatter <= MOST_SCATTER_MV:
         least = max(least, noise_depth_mv(scatter, len(valid)))
     lowest = np.flatnonzero((depth >= least) & (mv < 0.0))
     by_u = valid[np.argsort(uv_m[valid, 0], kind="stable")]

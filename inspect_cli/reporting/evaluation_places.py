@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from inspect_cli.assessment.gradient import MOST_SCATTER_MV
 from inspect_cli.reporting.content import Block, Column, Paragraph, Table
 from inspect_cli.reporting.recorded import recorded
 from inspect_cli.reporting.text import Text, count, number, say, sentences, together
@@ -74,6 +75,14 @@ def _depth(found: GradientFindings) -> Text:
             "A minimum counts if it is at least {depth} mV deep; how much a single reading "
             "scatters is not known of so few neighbours.",
             depth=number(found.least_depth_mv, 0),
+        )
+    if found.scatter_mv > MOST_SCATTER_MV:
+        return say(
+            "A minimum counts if it is at least {depth} mV deep: neighbours differ by more than "
+            "readings scatter (standard deviation {sd} mV), so that the spacing is too coarse to "
+            "tell scatter from corrosion.",
+            depth=number(found.least_depth_mv, 0),
+            sd=number(found.scatter_mv, 1),
         )
     return say(
         "A minimum counts if it is at least {depth} mV deep: a single reading scatters by {sd} mV "

@@ -10,6 +10,7 @@ from scipy.stats import norm
 from surveyed import grid
 
 from inspect_cli.assessment.gradient import (
+    MOST_SCATTER_MV,
     Minima,
     Steps,
     minima_of,
@@ -152,7 +153,7 @@ def test_scatter_alone_is_no_corrosion() -> None:
     for k in range(200):
         columns, rows = rng.integers(10, 21, 2)
         uv = grid(columns, rows, (0.25, 0.5)[k % 2])
-        mv = -400.0 + rng.normal(0.0, rng.uniform(20.0, 60.0), len(uv))
+        mv = -400.0 + rng.normal(0.0, rng.uniform(15.0, 40.0), len(uv))
         wrong += bool(np.any(minima(uv, mv).is_active))
     assert wrong <= 10
 
@@ -161,7 +162,7 @@ def test_few_readings_of_scatter_alone() -> None:
     """Even of 30 readings, whose scatter is known to a fifth, hardly more than 5 % (±3 σ)."""
     rng = np.random.default_rng(4)
     uv = grid(6, 5, 0.5)
-    surveys = [minima(uv, -400.0 + rng.normal(0.0, 60.0, 30)) for _ in range(200)]
+    surveys = [minima(uv, -400.0 + rng.normal(0.0, 35.0, 30)) for _ in range(200)]
     assert sum(bool(np.any(found.is_active)) for found in surveys) <= 20
 
 
@@ -199,6 +200,23 @@ def test_few_neighbours_tell_no_scatter() -> None:
     more = minima(grid(22, 1, 0.5), rng.normal(-300.0, 30.0, 22))
     assert more.scatter_mv is not None
     assert more.least_depth_mv == noise_depth_mv(more.scatter_mv, 22)
+
+
+def test_what_is_too_much_for_scatter_is_not_passed_over() -> None:
+    """Corroding places as far apart as the readings: neighbours say nothing of each other."""
+    uv = grid(6, 4, 0.25)
+    mv = np.array(
+        [
+            [-293, -359, -254, -227, -413, -125],
+            [-394, -497, -334, -195, -233, -165],
+            [-299, -364, -261, -218, -423, -344],
+            [-167, -186, -375, -181, -362, -300],
+        ]
+    )
+    found = minima(uv, mv)
+    assert found.scatter_mv is not None
+    assert found.scatter_mv > MOST_SCATTER_MV
+    assert (found.least_depth_mv, int(np.count_nonzero(found.is_active))) == (20.0, 3)
 
 
 def test_how_deep_scatter_goes() -> None:
