@@ -29,9 +29,10 @@ from typing import Final
 
 import numpy as np
 
+from inspect_cli.assessment import mixture_errors
 from inspect_cli.assessment.classes import millivolts
 from inspect_cli.compiled import kernel
-from inspect_cli.spatial.arrays import Matrix, Vector
+from inspect_cli.spatial.arrays import Vector
 
 MIN_READINGS: Final = 20
 """Fewer do not tell the shape of their distribution."""
@@ -220,22 +221,6 @@ def log_densities(theta: Vector, x: float) -> tuple[float, float]:
     return active - half_log_2pi, passive - half_log_2pi
 
 
-def score(values: Vector, counts: Vector, theta: Vector) -> Vector:
-    """∂ log L/∂θ (5,)."""
-    w, mean_a, sd_a, mean_p, sd_p = theta
-    za, zp = (values - mean_a) / sd_a, (values - mean_p) / sd_p
-    log_odds = math.log(w / (1.0 - w)) - 0.5 * (za**2 - zp**2) + math.log(sd_p / sd_a)
-    r = 0.5 * (1.0 + np.tanh(0.5 * log_odds))
-    terms = (
-        r / w - (1.0 - r) / (1.0 - w),
-        r * za / sd_a,
-        r * (za**2 - 1.0) / sd_a,
-        (1.0 - r) * zp / sd_p,
-        (1.0 - r) * (zp**2 - 1.0) / sd_p,
-    )
-    return np.array([counts @ term for term in terms])
-
-
 def _described(
     values: Vector, counts: Vector, least_sd: float, theta: Vector, likelihood: float
 ) -> Mixture:
@@ -244,12 +229,12 @@ def _described(
     sd = max(math.sqrt(np.average((values - mean) ** 2, weights=counts)), least_sd)
     alone = np.array([1.0, mean, sd, mean, sd])
     one = sum(c * log_densities(alone, x)[0] for x, c in zip(values, counts, strict=True))
-    covariance = _covariance(values, counts, least_sd, theta)
+    covariance = mixture_errors.covariance(values, counts, least_sd, theta)
     errors = None if isinstance(covariance, str) else np.sqrt(np.diag(covariance))
     threshold = _threshold(theta)
     threshold_error = None
     if threshold is not None and not isinstance(covariance, str):
-        threshold_error = _threshold_error(theta, threshold, covariance)
+        threshold_error = mixture_errors.threshold_error(theta, threshold, covariance)
     w, mean_a, sd_a, mean_p, sd_p = theta.tolist()
     return Mixture(
         weight=w,
@@ -267,26 +252,6 @@ def _described(
         readings=int(n),
         least_sd_mv=least_sd,
     )
-
-
-def _covariance(values: Vector, counts: Vector, least_sd: float, theta: Vector) -> Matrix | str:
-    """Inverse of the observed information (5, 5) by central differences of the score."""
-    w, _, sd_a, _, sd_p = theta.tolist()
-    if not 1e-6 < w < 1.0 - 1e-6:
-        return "one population has no readings"
-    if min(sd_a, sd_p) <= least_sd:
-        return "a population is as narrow as the readings' resolution"
-    scale = np.array([w * (1.0 - w), sd_a, sd_a, sd_p, sd_p])
-    hessian = np.zeros((5, 5))
-    for k in range(5):
-        step = np.zeros(5)
-        step[k] = 1e-4 * scale[k]
-        change = score(values, counts, theta + step) - score(values, counts, theta - step)
-        hessian[k] = change / (2.0 * step[k])
-    information = -0.5 * (hessian + hessian.T) * np.outer(scale, scale)
-    if np.linalg.eigvalsh(information)[0] <= 1e-9 * counts.sum():
-        return "the likelihood is flat in one direction: the populations cannot be told apart"
-    return np.asarray(np.linalg.inv(information) * np.outer(scale, scale))
 
 
 def _threshold(theta: Vector) -> float | None:
@@ -311,21 +276,3 @@ def _threshold(theta: Vector) -> float | None:
         else:
             high = middle
     return 0.5 * (low + high)
-
-
-def _threshold_error(theta: Vector, x: float, covariance: Matrix) -> float:
-    """√(gᵀ C g) with g = −(∂f/∂θ) / (∂f/∂x) of f = ln [w N_a(x)] − ln [(1 − w) N_p(x)]."""
-    w, mean_a, sd_a, mean_p, sd_p = theta
-    za, zp = (x - mean_a) / sd_a, (x - mean_p) / sd_p
-    along_x = -za / sd_a + zp / sd_p
-    by_theta = np.array(
-        [
-            1.0 / (w * (1.0 - w)),
-            za / sd_a,
-            (za**2 - 1.0) / sd_a,
-            -zp / sd_p,
-            -(zp**2 - 1.0) / sd_p,
-        ]
-    )
-    gradient = -by_theta / along_x
-    return float(np.sqrt(gradient @ covariance @ gradient))

@@ -10,7 +10,8 @@ from scipy.optimize import brentq, minimize
 from scipy.stats import norm
 
 from inspect_cli.assessment.findings import mixture_findings
-from inspect_cli.assessment.mixture import Mixture, fitted, resolution_of, score
+from inspect_cli.assessment.mixture import Mixture, fitted, resolution_of
+from inspect_cli.assessment.mixture_errors import score
 
 ACTIVE, PASSIVE = (-420.0, 45.0), (-150.0, 40.0)
 
