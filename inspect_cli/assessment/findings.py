@@ -34,6 +34,10 @@ from inspect_cli.spatial.arrays import Vector
 MAX_LISTED: Final = 20
 """Minima and proposals that the summary names; it counts all."""
 PERCENTILES: Final = (5, 10, 25, 50, 75, 90, 95)
+DISAGREE_V: Final = 0.020
+"""Readings of a place that differ by more contradict each other: twice what one electrode's may by
+ASTM C876, and as much as two electrodes' may."""
+ROUNDING_V: Final = 1e-9
 NO_READING: Final = "no reading is valid"
 ALONE: Final = "fewer than two valid readings have no neighbours"
 
@@ -129,12 +133,14 @@ def gradient_findings(
             "the criterion compares those within 1 m"
         )
     elif not len(minima.index):
-        why = "no negative minimum is 20 mV deep"
+        why = f"no negative minimum is {minima.least_depth_mv:.0f} mV deep"
     return GradientFindings(
         minima=len(minima.index),
         active=int(np.count_nonzero(minima.is_active)),
         not_judged=not_judged,
         steepest=tuple(steepest),
+        least_depth_mv=minima.least_depth_mv,
+        scatter_mv=minima.scatter_mv,
         why=why,
     )
 
@@ -146,7 +152,7 @@ def mixture_findings(mixture: Mixture | str) -> MixtureFindings:
     if not mixture.is_supported:
         return MixtureFindings(
             verdict="one population",
-            why="a second population does not lower the BIC by more than 10",
+            why=mixture.why_one,
             bic_one=mixture.one_bic,
             bic_two=mixture.bic,
         )
@@ -204,12 +210,33 @@ def repeatability_findings(places: Merged) -> RepeatabilityFindings:
     """What repeated readings say."""
     repeated = places.within_sd_v[np.isfinite(places.within_sd_v)]
     sd_v = places.repeatability_v
+    apart = np.flatnonzero(places.spread_v > DISAGREE_V + ROUNDING_V)
+    worst = apart[np.argmax(places.spread_v[apart])] if len(apart) else None
     return RepeatabilityFindings(
         places=len(repeated),
         degrees_of_freedom=places.degrees_of_freedom,
         sd_mv=None if sd_v is None else 1e3 * sd_v,
         greatest_sd_mv=1e3 * float(np.max(repeated)) if len(repeated) else None,
+        disagreeing=len(apart),
+        worst=None if worst is None else str(places.readings.labels[worst]),
+        worst_spread_mv=None if worst is None else 1e3 * float(places.spread_v[worst]),
         why="" if len(repeated) else "no place was read twice",
+    )
+
+
+def disagreement(found: RepeatabilityFindings) -> tuple[str, ...]:
+    """The warning of places whose readings contradict each other; empty without any."""
+    if found.worst_spread_mv is None:
+        return ()
+    asked = "repeated readings should agree within 10 mV (ASTM C876)."
+    if found.disagreeing == 1:
+        return (
+            f"The readings at the place of point {found.worst} differ by "
+            f"{found.worst_spread_mv:.0f} mV; {asked}",
+        )
+    return (
+        f"At {found.disagreeing} places the readings differ by more than 20 mV, most at the place "
+        f"of point {found.worst}, by {found.worst_spread_mv:.0f} mV; {asked}",
     )
 
 
@@ -227,6 +254,7 @@ def uncertainty_findings(
         max_mv=1e3 * float(np.max(budget.total_v[valid])) if some else None,
         reading_mv=median_mv(budget.reading_v),
         repeatability_mv=median_mv(budget.repeatability_v),
+        conversion_mv=1e3 * budget.conversion_v,
         temperature_mv=1e3 * budget.temperature_v,
         single_reading_mv=1e3 * budget.single_v,
         single_reading_from=budget.single_from,

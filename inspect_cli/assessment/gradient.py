@@ -4,13 +4,31 @@ Absolute potentials mean different things on different structures; a steep rise 
 minimum indicates active corrosion on all of them. The criterion of RILEM TC 154-EMC, about 100 mV
 within 1 m, is made definite here:
 
-    minimum   a valid, negative reading that no neighbour undercuts, at the bottom of a hollow at
-              least 20 mV deep: that much has to be climbed from it to reach a lower reading, or
-              there is none. Less can be two electrodes' disagreement (ASTM C876). Of equal
-              readings side by side, the first stands for all.
+    minimum   a valid, negative reading that no neighbour undercuts, at the bottom of a hollow
+              deep enough: so much has to be climbed from it to reach a lower reading, or there is
+              none. Of equal readings side by side, the first stands for all.
+    enough    20 mV, since less can be two electrodes' disagreement (ASTM C876), and more than
+              scatter alone makes, see below.
     rise      the highest valid reading within 1 m, less the minimum. At an edge or a gap only
               what was read counts; a minimum with no other reading within 1 m is not judged.
     active    rise ≥ 100 mV.
+
+Readings that only scatter have hollows too, the deepest of them as deep as their whole range. Of n
+independent normal readings with standard deviation σ that is expected to be 2 √(2 ln n) σ at most
+(Boucheron, Lugosi & Massart, Concentration Inequalities (2013), section 2.5), but σ is not known:
+told from the readings (``scatter_mv``) it is too small often enough that 7 to 11 % of surveys of
+100 to 400 readings have a deeper one. A range above 2 z σ takes a reading more than z σ from the
+middle, above or below it, so that whatever n
+
+    P(range > 2 z σ) ≤ 2 n (1 − Φ(z)) = 5 %    with    z = Φ⁻¹(1 − 0.05/(2 n))
+
+(Bonferroni). This depth, ``noise_depth_mv``, is 7 σ among a hundred readings and 7.7 σ among four
+hundred. The bound is wide enough for the error of σ: 1 to 3 % of such surveys have a deeper hollow,
+of surveys of 20 readings 6 %.
+What changes from one reading to the next and not beyond counts as scatter, whether the voltmeter
+or the concrete made it, up to ``MOST_SCATTER_MV``: more is steel that so coarse a spacing does not
+resolve, of which the readings cannot tell how deep its hollows are. They then count as where the
+scatter is not known, since a corroding place that is passed over costs more than one looked at.
 
 Source: Elsener and others, RILEM TC 154-EMC, Materials and Structures 36 (2003) 461–471.
 """
@@ -19,6 +37,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from statistics import NormalDist
 from typing import Final
 
 import numpy as np
@@ -26,6 +45,7 @@ from numpy.typing import NDArray
 
 from inspect_cli.assessment.classes import millivolts
 from inspect_cli.assessment.spacing import Spacing, side_by_side
+from inspect_cli.assessment.uncertainty import LIMIT_OVER_SD
 from inspect_cli.compiled import kernel
 from inspect_cli.schema.tasks import CLOSER_SPACING_MV
 from inspect_cli.spatial.arrays import Points, Vector
@@ -34,6 +54,15 @@ RISE_MV: Final = 100.0
 WITHIN_M: Final = 1.0
 LEAST_DEPTH_MV: Final = 20.0
 """Two electrodes may differ by as much at the same place (ASTM C876)."""
+BY_SCATTER: Final = 0.05
+"""Surveys of scatter alone that may have a hollow deep enough, at most."""
+MIN_DIFFERENCES: Final = 20
+"""Readings with two neighbours or more that tell the scatter; fewer do not."""
+MOST_SCATTER_MV: Final = CLOSER_SPACING_MV / LIMIT_OVER_SD
+"""54 mV: with more, over 5 % of neighbours differ by the 150 mV at which ASTM C876 asks for a
+closer spacing, so that the standard takes it for the structure's."""
+MAD_TO_SD: Final = 1.4826
+"""Of a normal population, its standard deviation over the median distance from its middle."""
 REACH_M: Final = WITHIN_M + 1e-9
 """For round-off: ten steps of a tenth are a metre."""
 
@@ -48,6 +77,10 @@ class Minima:
     """(k,) to the highest reading within 1 m; NaN where there is no other."""
     rise_within_m: Vector
     """(k,) distance of the nearest reading at least 100 mV higher; NaN without one in 1 m."""
+    least_depth_mv: float
+    """How deep a hollow had to be."""
+    scatter_mv: float | None
+    """Standard deviation of a single reading around its neighbours; None where it is not known."""
 
     @property
     def is_active(self) -> NDArray[np.bool_]:
@@ -78,12 +111,50 @@ def minima_of(uv_m: Points, potential_v: Vector, pairs: NDArray[np.intp]) -> Min
     mv = millivolts(potential_v)
     valid = np.flatnonzero(np.isfinite(mv))
     depth = hollow_depths(mv, valid[np.argsort(mv[valid], kind="stable")], pairs)
-    lowest = np.flatnonzero((depth >= LEAST_DEPTH_MV) & (mv < 0.0))
+    scatter = scatter_mv(mv, pairs)
+    least = LEAST_DEPTH_MV
+    if scatter is not None and scatter <= MOST_SCATTER_MV:
+        least = max(least, noise_depth_mv(scatter, len(valid)))
+    lowest = np.flatnonzero((depth >= least) & (mv < 0.0))
     by_u = valid[np.argsort(uv_m[valid, 0], kind="stable")]
     first = np.searchsorted(uv_m[by_u, 0], uv_m[lowest, 0] - REACH_M)
     rise, within = rises(uv_m[by_u], mv[by_u], uv_m[lowest], mv[lowest], first)
     steepest = np.lexsort((mv[lowest], -np.nan_to_num(rise, nan=-1.0)))
-    return Minima(lowest[steepest], rise[steepest], within[steepest])
+    return Minima(lowest[steepest], rise[steepest], within[steepest], least, scatter)
+
+
+def scatter_mv(mv: Vector, pairs: NDArray[np.intp]) -> float | None:
+    """Standard deviation, mV, of a single reading around what its neighbours say of its place.
+
+        r_i = E_i − mean of its k_i neighbours        σ = 1.4826 median |r_i| / √(1 + 1/k_i)
+
+    A slope cancels where neighbours lie around a reading, and hollows do not count as long as most
+    readings lie outside of their bends. Of independent normal readings r_i has the variance
+    σ² (1 + 1/k_i). None with fewer than 20 readings that have two neighbours.
+
+    Args:
+        mv: (n,)
+        pairs: (k, 2) neighbours, each pair once, none of them NaN.
+
+    Source: the median is Hampel's, J. Am. Stat. Assoc. 69 (1974) 383–393.
+    """
+    ends, others = np.concatenate([pairs, pairs[:, ::-1]]).T
+    around = np.bincount(ends, minlength=len(mv))
+    total = np.bincount(ends, mv[others], len(mv))
+    told = np.flatnonzero(around >= 2)
+    if len(told) < MIN_DIFFERENCES:
+        return None
+    k = around[told]
+    differences = np.abs(mv[told] - total[told] / k) / np.sqrt(1.0 + 1.0 / k)
+    return MAD_TO_SD * float(np.median(differences))
+
+
+def noise_depth_mv(scatter_mv: float, n: int) -> float:
+    """2 z σ, mV: the depth that in 19 of 20 surveys no hollow among n > 0 readings has by scatter.
+
+    Equation and source stand above.
+    """
+    return 2.0 * NormalDist().inv_cdf(1.0 - BY_SCATTER / (2.0 * n)) * scatter_mv
 
 
 def steps_of(

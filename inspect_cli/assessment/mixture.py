@@ -9,8 +9,13 @@ equal readings says nothing of concrete.
 
 Two populations are called for when their BIC is lower than that of a single normal population by
 more than 10, "very strong" evidence (Kass & Raftery, J. Am. Stat. Assoc. 90 (1995) 773–795); the
-three further parameters alone cost 3 ln n. Which population is the active one follows from their
-order only: whether the structure has active steel at all, the potentials' shape cannot tell.
+three further parameters alone cost 3 ln n. And both must be populations: a mean and a spread are of
+a handful of readings, so the smaller one must hold at least 5 by expectation, n w or n (1 − w).
+Fewer are outliers. It is a number and no share, because a small active part of a large survey has
+as much to tell them from as a large part of a small one. Nor may the smaller one be as narrow as
+the resolution beside a wider one: that is a value that repeats. Which population is the active one
+follows from their order only: whether the structure has active steel at all, the potentials' shape
+cannot tell.
 
 Standard errors are those of the observed information, the inverse of −∂² log L/∂θ², and of the
 threshold by implicit differentiation.
@@ -24,9 +29,10 @@ from typing import Final
 
 import numpy as np
 
+from inspect_cli.assessment import mixture_errors
 from inspect_cli.assessment.classes import millivolts
 from inspect_cli.compiled import kernel
-from inspect_cli.spatial.arrays import Matrix, Vector
+from inspect_cli.spatial.arrays import Vector
 
 MIN_READINGS: Final = 20
 """Fewer do not tell the shape of their distribution."""
@@ -35,6 +41,8 @@ STARTS: Final = (0.1, 0.25, 0.5, 0.75, 0.9)
 RESOLUTIONS_MV: Final = (20.0, 10.0, 5.0, 2.0, 1.0)
 """To which potentials are recorded; ASTM C876 asks for a meter that can be read to 20 mV."""
 SUPPORTED_BIC: Final = 10.0
+LEAST_HELD: Final = 5.0
+"""Readings of the smaller population; the least expected number of a class, by Cochran's rule."""
 PARAMETERS: Final = (2, 5)
 """Of one population and of two."""
 MAX_STEPS: Final = 2000
@@ -64,11 +72,30 @@ class Mixture:
     """Of a single normal population."""
     bic: float
     one_bic: float
+    readings: int
+    least_sd_mv: float
+    """The readings' resolution; no population is narrower."""
 
     @property
     def is_supported(self) -> bool:
-        """Whether the second population is called for."""
-        return self.one_bic - self.bic > SUPPORTED_BIC
+        """Whether there is a second population."""
+        return not self.why_one
+
+    @property
+    def why_one(self) -> str:
+        """Why there is no second population; empty where there is."""
+        if self.one_bic - self.bic <= SUPPORTED_BIC:
+            return "a second population does not lower the BIC by more than 10"
+        smaller = 0 if self.weight < 0.5 else 1
+        held = self.readings * (self.weight if smaller == 0 else 1.0 - self.weight)
+        if held < LEAST_HELD:
+            return _outliers(held)
+        if self.sd_mv[smaller] <= self.least_sd_mv < self.sd_mv[1 - smaller]:
+            return (
+                "the second would be as narrow as the readings' resolution: that is a value that "
+                "repeats, not a population"
+            )
+        return ""
 
     @property
     def passive_limit_mv(self) -> float:
@@ -104,6 +131,15 @@ def fitted(potential_v: Vector) -> Mixture | str:
     if best[1] > best[3]:
         best = np.array([1.0 - best[0], best[3], best[4], best[1], best[2]])
     return _described(values, counts, least_mv, best, best_likelihood)
+
+
+def _outliers(held: float) -> str:
+    if held < 1.5:
+        return "the second would hold 1 reading: that is an outlier, not a population"
+    return (
+        f"the second would hold {held:.1f} readings by expectation, fewer than {LEAST_HELD:.0f}: "
+        "those are outliers, not a population"
+    )
 
 
 def resolution_of(mv: Vector) -> float:
@@ -185,22 +221,6 @@ def log_densities(theta: Vector, x: float) -> tuple[float, float]:
     return active - half_log_2pi, passive - half_log_2pi
 
 
-def score(values: Vector, counts: Vector, theta: Vector) -> Vector:
-    """∂ log L/∂θ (5,)."""
-    w, mean_a, sd_a, mean_p, sd_p = theta
-    za, zp = (values - mean_a) / sd_a, (values - mean_p) / sd_p
-    log_odds = math.log(w / (1.0 - w)) - 0.5 * (za**2 - zp**2) + math.log(sd_p / sd_a)
-    r = 0.5 * (1.0 + np.tanh(0.5 * log_odds))
-    terms = (
-        r / w - (1.0 - r) / (1.0 - w),
-        r * za / sd_a,
-        r * (za**2 - 1.0) / sd_a,
-        (1.0 - r) * zp / sd_p,
-        (1.0 - r) * (zp**2 - 1.0) / sd_p,
-    )
-    return np.array([counts @ term for term in terms])
-
-
 def _described(
     values: Vector, counts: Vector, least_sd: float, theta: Vector, likelihood: float
 ) -> Mixture:
@@ -209,12 +229,12 @@ def _described(
     sd = max(math.sqrt(np.average((values - mean) ** 2, weights=counts)), least_sd)
     alone = np.array([1.0, mean, sd, mean, sd])
     one = sum(c * log_densities(alone, x)[0] for x, c in zip(values, counts, strict=True))
-    covariance = _covariance(values, counts, least_sd, theta)
+    covariance = mixture_errors.covariance(values, counts, least_sd, theta)
     errors = None if isinstance(covariance, str) else np.sqrt(np.diag(covariance))
     threshold = _threshold(theta)
     threshold_error = None
     if threshold is not None and not isinstance(covariance, str):
-        threshold_error = _threshold_error(theta, threshold, covariance)
+        threshold_error = mixture_errors.threshold_error(theta, threshold, covariance)
     w, mean_a, sd_a, mean_p, sd_p = theta.tolist()
     return Mixture(
         weight=w,
@@ -229,27 +249,9 @@ def _described(
         one_log_likelihood=float(one),
         bic=PARAMETERS[1] * math.log(n) - 2.0 * likelihood,
         one_bic=PARAMETERS[0] * math.log(n) - 2.0 * float(one),
+        readings=int(n),
+        least_sd_mv=least_sd,
     )
-
-
-def _covariance(values: Vector, counts: Vector, least_sd: float, theta: Vector) -> Matrix | str:
-    """Inverse of the observed information (5, 5) by central differences of the score."""
-    w, _, sd_a, _, sd_p = theta.tolist()
-    if not 1e-6 < w < 1.0 - 1e-6:
-        return "one population has no readings"
-    if min(sd_a, sd_p) <= least_sd:
-        return "a population is as narrow as the readings' resolution"
-    scale = np.array([w * (1.0 - w), sd_a, sd_a, sd_p, sd_p])
-    hessian = np.zeros((5, 5))
-    for k in range(5):
-        step = np.zeros(5)
-        step[k] = 1e-4 * scale[k]
-        change = score(values, counts, theta + step) - score(values, counts, theta - step)
-        hessian[k] = change / (2.0 * step[k])
-    information = -0.5 * (hessian + hessian.T) * np.outer(scale, scale)
-    if np.linalg.eigvalsh(information)[0] <= 1e-9 * counts.sum():
-        return "the likelihood is flat in one direction: the populations cannot be told apart"
-    return np.asarray(np.linalg.inv(information) * np.outer(scale, scale))
 
 
 def _threshold(theta: Vector) -> float | None:
@@ -274,21 +276,3 @@ def _threshold(theta: Vector) -> float | None:
         else:
             high = middle
     return 0.5 * (low + high)
-
-
-def _threshold_error(theta: Vector, x: float, covariance: Matrix) -> float:
-    """√(gᵀ C g) with g = −(∂f/∂θ) / (∂f/∂x) of f = ln [w N_a(x)] − ln [(1 − w) N_p(x)]."""
-    w, mean_a, sd_a, mean_p, sd_p = theta
-    za, zp = (x - mean_a) / sd_a, (x - mean_p) / sd_p
-    along_x = -za / sd_a + zp / sd_p
-    by_theta = np.array(
-        [
-            1.0 / (w * (1.0 - w)),
-            za / sd_a,
-            (za**2 - 1.0) / sd_a,
-            -zp / sd_p,
-            -(zp**2 - 1.0) / sd_p,
-        ]
-    )
-    gradient = -by_theta / along_x
-    return float(np.sqrt(gradient @ covariance @ gradient))

@@ -92,6 +92,8 @@ class Merged:
     """(m,) valid readings per place."""
     within_sd_v: Vector
     """(m,) standard deviation of the valid readings of a place; NaN with fewer than two."""
+    spread_v: Vector
+    """(m,) greatest less least of the valid readings of a place; NaN without any."""
     repeatability_v: float | None
     """Pooled standard deviation within the places: √(Σ (E − Ē)² / ν)."""
     degrees_of_freedom: int
@@ -125,6 +127,7 @@ def merged(readings: Readings) -> Merged:
             resistivity_ohm_m=_medians(member, readings.resistivity_ohm_m, len(first)),
             measurement_sd_v=np.sqrt(_means(at, readings.measurement_sd_v[valid] ** 2, counts)),
         )
+    low, high = _extremes(at, value, len(first))
     squares = np.bincount(at, (value - points.potential_v[at]) ** 2, len(first))
     freedom = int(np.sum(np.maximum(counts - 1, 0)))
     return Merged(
@@ -132,6 +135,7 @@ def merged(readings: Readings) -> Merged:
         member=member,
         counts=counts,
         within_sd_v=np.sqrt(_ratio(squares, np.where(counts > 1, counts - 1, 0))),
+        spread_v=np.where(counts > 0, high - low, np.nan),
         repeatability_v=float(np.sqrt(np.sum(squares) / freedom)) if freedom else None,
         degrees_of_freedom=freedom,
     )
@@ -141,10 +145,15 @@ def _means(at: NDArray[np.intp], values: Vector, counts: NDArray[np.intp]) -> Ve
     """Mean of the values of each place; a single one is itself, to the last digit."""
     mean = _ratio(np.bincount(at, values, len(counts)), counts)
     # Equal values must stay what they are: the sum of three tenths is not three times a tenth.
-    low, high = np.full(len(counts), np.inf), np.full(len(counts), -np.inf)
+    return np.where(counts > 0, np.clip(mean, *_extremes(at, values, len(counts))), np.nan)
+
+
+def _extremes(at: NDArray[np.intp], values: Vector, n: int) -> tuple[Vector, Vector]:
+    """Least and greatest value of each of n places; ±∞ without one."""
+    low, high = np.full(n, np.inf), np.full(n, -np.inf)
     np.minimum.at(low, at, values)
     np.maximum.at(high, at, values)
-    return np.where(counts > 0, np.clip(mean, low, high), np.nan)
+    return low, high
 
 
 def _medians(at: NDArray[np.intp], values: Vector, n: int) -> Vector:

@@ -8,11 +8,13 @@ reading          of the measurement itself (``reading_sd_v``): sample noise, dri
 repeatability    s/√m of the mean of m readings at a place, s pooled over the places that were read
                  more than once, if these give 10 degrees of freedom; else from ASTM C876's limit
                  for the difference of two readings with one electrode, 10 mV, or with two, 20 mV.
-                 A limit r that 95 % of differences keep means s = r/(1.96 √2) (ISO 5725-6)
+                 A limit r that 95 % of differences keep means s = r/(1.96 √2) (ISO 5725-6). Where
+                 the readings of a place themselves scatter by more, s is theirs: two that differ
+                 by Δ have a mean that is known to |Δ|/2
+conversion       of a reading that was taken with another electrode: the difference of the standard
+                 potentials holds to ±5 mV, see ``CONVERSION_HOLDS_V``; the same for all of a survey
 temperature      what is known and not corrected: 0.9 mV/°C |T − 22.2 °C|; the whole ±4.95 mV of the
                  negligible band where T is not known; 1 °C of it where it was corrected
-
-A reading that was converted from another electrode is as sure as one with two electrodes.
 """
 
 from __future__ import annotations
@@ -45,6 +47,11 @@ ENOUGH_FREEDOM: Final = 10
 """Degrees of freedom with which a survey's own repeatability is known to a fifth (1/√(2ν))."""
 KNOWN_TO_C: Final = 1.0
 """A temperature that was stated holds to this."""
+CONVERSION_HOLDS_V: Final = 0.005
+"""Bound of what is added to have a reading against CSE; the project's own choice. Tables of the
+saturated electrodes' potentials, liquid junction included, differ by 2 to 4 mV (SCE 0.241 to
+0.2444 V, CSE 0.314 to 0.318 V, Ag/AgCl 0.197 to 0.199 V), and they are for 25 °C, where a CSE's is
+2.5 mV from that at 22.2 °C."""
 INPUT_OHM: Final = 1e7
 """Least input resistance of the voltmeter (ASTM C876, section 6)."""
 SURE: Final = 0.95
@@ -60,19 +67,24 @@ class Budget:
     """(m,)"""
     repeatability_v: Vector
     """(m,)"""
+    conversion_v: float
+    """0 for a CSE."""
     temperature_v: float
     single_v: float
-    """Standard deviation of a single reading at a place, s."""
+    """Standard deviation of a single reading at a place, s, where the place says nothing else."""
+    at_place_v: Vector
+    """(m,) s of each place: its own readings' where that is larger."""
     single_from: str
     """Where s comes from."""
 
     @property
     def alone_v(self) -> Vector:
-        """(m,) of each reading by itself: √(u²(reading) + s² + u²(temperature)), NaN unknown.
+        """(m,) of each reading by itself, s in the place of s/√m; NaN unknown.
 
         A place that was read several times is surer than each of its readings.
         """
-        return np.asarray(np.sqrt(self.reading_v**2 + self.single_v**2 + self.temperature_v**2))
+        shared = self.conversion_v**2 + self.temperature_v**2
+        return np.asarray(np.sqrt(self.reading_v**2 + self.at_place_v**2 + shared))
 
 
 def reading_sd_v(
@@ -117,24 +129,32 @@ def budget_of(merged: Merged, basis: Basis, *, electrodes: int = 1) -> Budget:
         electrodes: 1 if one electrode took all readings, else 2.
     """
     points = merged.readings
-    one = electrodes == 1 and basis.electrode == CSE
-    limit_v = ONE_ELECTRODE_V if one else TWO_ELECTRODES_V
+    limit_v = ONE_ELECTRODE_V if electrodes == 1 else TWO_ELECTRODES_V
     single_v = limit_v / LIMIT_OVER_SD
     single_from = f"ASTM C876: two readings of a place differ by at most {1e3 * limit_v:g} mV"
     if merged.repeatability_v is not None and merged.degrees_of_freedom >= ENOUGH_FREEDOM:
         single_v = merged.repeatability_v
         single_from = f"repeated readings, {merged.degrees_of_freedom} degrees of freedom"
-    repeatability = single_v / np.sqrt(np.maximum(merged.counts, 1))
-    temperature_v = temperature_sd_v(basis)
-    total = np.sqrt(points.measurement_sd_v**2 + repeatability**2 + temperature_v**2)
+    at_place = np.fmax(single_v, merged.within_sd_v)  # NaN of a place that was read once
+    repeatability = at_place / np.sqrt(np.maximum(merged.counts, 1))
+    conversion_v, temperature_v = conversion_sd_v(basis), temperature_sd_v(basis)
+    shared = conversion_v**2 + temperature_v**2
+    total = np.sqrt(points.measurement_sd_v**2 + repeatability**2 + shared)
     return Budget(
         total_v=np.where(points.valid, total, np.nan),
         reading_v=points.measurement_sd_v,
         repeatability_v=repeatability,
+        conversion_v=conversion_v,
         temperature_v=temperature_v,
         single_v=single_v,
+        at_place_v=at_place,
         single_from=single_from,
     )
+
+
+def conversion_sd_v(basis: Basis) -> float:
+    """Standard uncertainty by the conversion to CSE, V; zero where a CSE was read with."""
+    return 0.0 if basis.electrode == CSE else CONVERSION_HOLDS_V / math.sqrt(3.0)
 
 
 def temperature_sd_v(basis: Basis) -> float:

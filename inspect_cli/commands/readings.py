@@ -22,6 +22,7 @@ from inspect_cli.assessment.classes import (
     name_of,
     verdict_codes,
 )
+from inspect_cli.assessment.findings import disagreement
 from inspect_cli.assessment.kriging import KrigedMap
 from inspect_cli.assessment.mixture import resolution_of
 from inspect_cli.assessment.readings import Readings
@@ -222,7 +223,7 @@ def _result(file: Path, survey: Survey, evaluated: Evaluated) -> ReadingsResult:
         files=tuple(SourceOfReadings(name=f.name, sha256=f.sha256) for f in survey.files),
         settings=survey.settings,
         assumed=survey.assumed,
-        warnings=survey.warnings,
+        warnings=(*survey.warnings, *disagreement(evaluated.assessed.summary.repeatability)),
         assessment=(evaluated.assessed.summary,),
         map=(found.how if isinstance(found, KrigedMap) else found.why,),
         versions={name: version(name) for name in VERSIONED} | {"python": python_version()},

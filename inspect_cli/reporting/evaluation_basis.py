@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
+from inspect_cli.assessment.findings import disagreement
 from inspect_cli.reporting.content import Block, Column, Facts, Paragraph, Table
 from inspect_cli.reporting.evaluated import Evaluated
 from inspect_cli.reporting.recorded import recorded
@@ -119,6 +120,7 @@ def uncertainty_blocks(summary: SurfaceAssessment) -> list[Block]:
     rows: list[list[Text]] = [
         [say("reading itself (noise, drift, wetting, load of the meter)"), _mv(found.reading_mv)],
         [say("repeatability of a place's mean"), _mv(found.repeatability_mv)],
+        *([[say("conversion to CSE"), _mv(found.conversion_mv)]] if found.conversion_mv else []),
         [say("temperature"), _mv(found.temperature_mv)],
         [say("together, median of the points"), _mv(found.median_mv)],
         [say("together, least certain point"), _mv(found.max_mv)],
@@ -147,15 +149,17 @@ def _repeatability(found: UncertaintyFindings, repeated: RepeatabilityFindings) 
         )
     own = count(
         repeated.places,
-        "{n} place was read more than once: standard deviation {sd} mV with {freedom} degrees of "
-        "freedom.",
-        "{n} places were read more than once: pooled standard deviation {sd} mV with {freedom} "
-        "degrees of freedom, {greatest} mV at the worst place.",
+        "{n} place was read more than once: standard deviation {sd} mV with {freedom}.",
+        "{n} places were read more than once: pooled standard deviation {sd} mV with {freedom}, "
+        "{greatest} mV at the worst place.",
         sd=number(repeated.sd_mv, 1),
-        freedom=number(repeated.degrees_of_freedom, 0),
+        freedom=count(
+            repeated.degrees_of_freedom, "{n} degree of freedom", "{n} degrees of freedom"
+        ),
         greatest=number(repeated.greatest_sd_mv, 1),
     )
-    return sentences([single, own])
+    apart = [recorded(warning) for warning in disagreement(repeated)]
+    return sentences([single, own, *apart])
 
 
 def _doubtful(found: UncertaintyFindings) -> Text:

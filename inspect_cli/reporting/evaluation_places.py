@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from inspect_cli.assessment.gradient import MOST_SCATTER_MV
 from inspect_cli.reporting.content import Block, Column, Paragraph, Table
 from inspect_cli.reporting.recorded import recorded
 from inspect_cli.reporting.text import Text, count, number, say, sentences, together
@@ -15,7 +16,7 @@ PLACE = (
 
 def gradient_blocks(found: GradientFindings) -> list[Block]:
     """The minima, how they rise, and which are judged active; or why there are none."""
-    told = sentences([judged(found), _not_judged(found)])
+    told = sentences([judged(found), _not_judged(found), _depth(found)])
     if not found.steepest:
         return [Paragraph(told, "note")]
     columns = [
@@ -63,6 +64,32 @@ def _not_judged(found: GradientFindings) -> Text:
         found.not_judged,
         "{n} has no other reading within 1 m and is not judged.",
         "{n} have no other reading within 1 m and are not judged.",
+    )
+
+
+def _depth(found: GradientFindings) -> Text:
+    if found.scatter_mv is None and not found.minima:
+        return ""  # why there is none was said
+    if found.scatter_mv is None:
+        return say(
+            "A minimum counts if it is at least {depth} mV deep; how much a single reading "
+            "scatters is not known of so few neighbours.",
+            depth=number(found.least_depth_mv, 0),
+        )
+    if found.scatter_mv > MOST_SCATTER_MV:
+        return say(
+            "A minimum counts if it is at least {depth} mV deep: neighbours differ by more than "
+            "readings scatter (standard deviation {sd} mV), so that the spacing is too coarse to "
+            "tell scatter from corrosion.",
+            depth=number(found.least_depth_mv, 0),
+            sd=number(found.scatter_mv, 1),
+        )
+    return say(
+        "A minimum counts if it is at least {depth} mV deep: a single reading scatters by {sd} mV "
+        "around its neighbours (standard deviation), and scatter alone seldom makes a hollow "
+        "deeper than that.",
+        depth=number(found.least_depth_mv, 0),
+        sd=number(found.scatter_mv, 1),
     )
 
 

@@ -164,14 +164,15 @@ def evaluation_method() -> Facts:
                 say("Gradient criterion"),
                 say(
                     "RILEM TC 154-EMC: a minimum is active where the potential rises by 100 mV "
-                    "within 1 m; that a minimum is at least 20 mV deep is the project's own choice"
+                    "within 1 m; that a minimum is at least 20 mV deep, and deeper than scatter "
+                    "makes one, is the project's own choice"
                 ),
             ),
             (
                 say("Populations"),
                 say(
                     "two normal ones by maximum likelihood where they lower the BIC by more than "
-                    "10 against a single one; at least 20 readings"
+                    "10 against a single one; at least 20 readings, 5 in the smaller one"
                 ),
             ),
             (

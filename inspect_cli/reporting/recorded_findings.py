@@ -19,12 +19,30 @@ FINDINGS: tuple[Said, ...] = (
     say("a single place has no spacing; state the pitch"),
     say("fewer than two valid readings have no neighbours"),
     say("readings are {apart} m apart; the criterion compares those within 1 m"),
-    say("no negative minimum is 20 mV deep"),
+    say("no negative minimum is {depth} mV deep"),
     say("no place was read twice"),
+    # Readings of a place that contradict each other.
+    say(
+        "The readings at the place of point {label} differ by {spread} mV; repeated readings "
+        "should agree within 10 mV (ASTM C876)."
+    ),
+    say(
+        "At {n} places the readings differ by more than 20 mV, most at the place of point {label}, "
+        "by {spread} mV; repeated readings should agree within 10 mV (ASTM C876)."
+    ),
     # Populations.
     say("valid readings: {n}; two populations ask for at least {least}"),
     say("all readings are equal to their resolution"),
     say("a second population does not lower the BIC by more than 10"),
+    say("the second would hold 1 reading: that is an outlier, not a population"),
+    say(
+        "the second would hold {n} readings by expectation, fewer than {least}: those are "
+        "outliers, not a population"
+    ),
+    say(
+        "the second would be as narrow as the readings' resolution: that is a value that repeats, "
+        "not a population"
+    ),
     say("one population has no readings"),
     say("a population is as narrow as the readings' resolution"),
     say("the likelihood is flat in one direction: the populations cannot be told apart"),

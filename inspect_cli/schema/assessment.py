@@ -101,6 +101,10 @@ class GradientFindings(Strict):
     """Minima without another reading within 1 m."""
     steepest: tuple[Minimum, ...]
     """The steepest of them first, at most as many as the summary has room for."""
+    least_depth_mv: float = 20.0
+    """How deep a hollow had to be for its bottom to count."""
+    scatter_mv: float | None = None
+    """Standard deviation of a single reading around its neighbours; None where it is not known."""
     why: str = ""
     """Why there is nothing to judge."""
 
@@ -166,6 +170,12 @@ class RepeatabilityFindings(Strict):
     """Standard deviation within a place, pooled."""
     greatest_sd_mv: float | None
     """Of a single place."""
+    disagreeing: int = 0
+    """Places whose readings differ by more than 20 mV."""
+    worst: str | None = None
+    """The point at that of them where they differ most."""
+    worst_spread_mv: float | None = None
+    """Greatest less least of its readings."""
     why: str = ""
 
 
@@ -176,6 +186,8 @@ class UncertaintyFindings(Strict):
     max_mv: float | None
     reading_mv: float | None
     repeatability_mv: float | None
+    conversion_mv: float = 0.0
+    """By the conversion to CSE; 0 where a CSE was read with."""
     temperature_mv: float
     single_reading_mv: float
     """Standard deviation of one reading at a place."""

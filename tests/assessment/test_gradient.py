@@ -6,9 +6,18 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from scipy.stats import norm
 from surveyed import grid
 
-from inspect_cli.assessment.gradient import Minima, Steps, minima_of, steps_of
+from inspect_cli.assessment.gradient import (
+    MOST_SCATTER_MV,
+    Minima,
+    Steps,
+    minima_of,
+    noise_depth_mv,
+    scatter_mv,
+    steps_of,
+)
 from inspect_cli.assessment.spacing import Spacing, neighbours, side_by_side, spacing_of
 
 
@@ -111,7 +120,7 @@ def test_minima_against_a_flood_by_hand(seed: int, strewn: bool) -> None:
         links[b].add(a)
     expected = set()
     for i in np.flatnonzero(mv < 0):
-        if prominence(i, mv, links) >= 20.0:
+        if prominence(i, mv, links) >= found.least_depth_mv:
             expected.add(int(i))
     assert set(found.index.tolist()) == expected
     for i, rise in zip(found.index, found.rise_mv, strict=True):
@@ -135,6 +144,88 @@ def prominence(i: int, mv: np.ndarray, links: list[set[int]]) -> float:
         if any(mv[j] < mv[i] or (mv[j] == mv[i] and j < i) for j in reached):
             return float(level - mv[i])
     return float(max(mv[j] for j in reached) - mv[i])
+
+
+def test_scatter_alone_is_no_corrosion() -> None:
+    """Of 200 surveys of nothing but scatter, 5 % at most have an active minimum."""
+    rng = np.random.default_rng(3)
+    wrong = 0
+    for k in range(200):
+        columns, rows = rng.integers(10, 21, 2)
+        uv = grid(columns, rows, (0.25, 0.5)[k % 2])
+        mv = -400.0 + rng.normal(0.0, rng.uniform(15.0, 40.0), len(uv))
+        wrong += bool(np.any(minima(uv, mv).is_active))
+    assert wrong <= 10
+
+
+def test_few_readings_of_scatter_alone() -> None:
+    """Even of 30 readings, whose scatter is known to a fifth, hardly more than 5 % (±3 σ)."""
+    rng = np.random.default_rng(4)
+    uv = grid(6, 5, 0.5)
+    surveys = [minima(uv, -400.0 + rng.normal(0.0, 35.0, 30)) for _ in range(200)]
+    assert sum(bool(np.any(found.is_active)) for found in surveys) <= 20
+
+
+def test_a_small_hollow_in_scatter_is_found() -> None:
+    """−250 mV e^(−(r/0.4 m)²) wherever it lies, in 15 mV of scatter: 95 % of 200 at least."""
+    rng = np.random.default_rng(5)
+    right = 0
+    for _ in range(200):
+        uv = grid(13, 13, 0.25)
+        centre = rng.uniform(0.5, 2.5, 2)
+        square = np.sum((uv - centre) ** 2, axis=1)
+        mv = -150.0 - 250.0 * np.exp(-square / 0.4**2) + rng.normal(0.0, 15.0, len(uv))
+        found = minima(uv, mv)
+        near = np.linalg.norm(uv[found.index] - centre, axis=1) < 0.4
+        right += bool(np.any(near & found.is_active))
+    assert right >= 190
+
+
+def test_the_scatter_is_told_from_neighbours_whatever_the_slope() -> None:
+    """σ of 900 readings to a tenth; a slope of 300 mV per metre adds nothing within the grid."""
+    rng = np.random.default_rng(6)
+    uv = grid(30, 30, 0.25)
+    noise = rng.normal(0.0, 20.0, 900)
+    _, _, _, pairs = prepared(uv, noise)
+    for slope in (0.0, 300.0):
+        assert scatter_mv(noise + slope * uv[:, 0], pairs) == pytest.approx(20.0, rel=0.1)
+
+
+def test_few_neighbours_tell_no_scatter() -> None:
+    """Then the rule is the two electrodes' 20 mV alone; with 20 readings it is the scatter's."""
+    rng = np.random.default_rng(7)
+    few = minima(grid(21, 1, 0.5), rng.normal(-300.0, 30.0, 21))  # the two ends have one each
+    assert (few.scatter_mv, few.least_depth_mv) == (None, 20.0)
+    assert len(few.index)
+    more = minima(grid(22, 1, 0.5), rng.normal(-300.0, 30.0, 22))
+    assert more.scatter_mv is not None
+    assert more.least_depth_mv == noise_depth_mv(more.scatter_mv, 22)
+
+
+def test_what_is_too_much_for_scatter_is_not_passed_over() -> None:
+    """Corroding places as far apart as the readings: neighbours say nothing of each other."""
+    uv = grid(6, 4, 0.25)
+    mv = np.array(
+        [
+            [-293, -359, -254, -227, -413, -125],
+            [-394, -497, -334, -195, -233, -165],
+            [-299, -364, -261, -218, -423, -344],
+            [-167, -186, -375, -181, -362, -300],
+        ]
+    )
+    found = minima(uv, mv)
+    assert found.scatter_mv is not None
+    assert found.scatter_mv > MOST_SCATTER_MV
+    assert (found.least_depth_mv, int(np.count_nonzero(found.is_active))) == (20.0, 3)
+
+
+def test_how_deep_scatter_goes() -> None:
+    """Against ranges of normal samples themselves, and the quantile of the normal by scipy."""
+    for n in (20, 100, 400):
+        ranges = np.ptp(np.random.default_rng(8).normal(size=(5000, n)), axis=1)
+        assert np.mean(ranges > noise_depth_mv(1.0, n)) < 0.05
+        assert np.mean(ranges) < 2.0 * np.sqrt(2.0 * np.log(n)) < noise_depth_mv(1.0, n)
+        assert noise_depth_mv(3.0, n) == pytest.approx(6.0 * norm.isf(0.025 / n))
 
 
 def test_neighbours_that_differ_by_more_than_150_mv() -> None:

@@ -9,7 +9,9 @@ import pytest
 from scipy.optimize import brentq, minimize
 from scipy.stats import norm
 
-from inspect_cli.assessment.mixture import Mixture, fitted, resolution_of, score
+from inspect_cli.assessment.findings import mixture_findings
+from inspect_cli.assessment.mixture import Mixture, fitted, resolution_of
+from inspect_cli.assessment.mixture_errors import score
 
 ACTIVE, PASSIVE = (-420.0, 45.0), (-150.0, 40.0)
 
@@ -132,6 +134,31 @@ def test_a_normal_sample_is_one_population() -> None:
     """Of 100 surveys of one population, fewer than five may be called two."""
     wrong = sum(fit(sample(n, 0.0, seed)).is_supported for seed in range(50) for n in (40, 400))
     assert wrong < 5
+
+
+@pytest.mark.parametrize("outliers", [[-800], [-250], [-800, -760, -840], [300, 310]])
+def test_outliers_are_no_population(outliers: list[int]) -> None:
+    volts = np.append(sample(69, 0.0, 8), 1e-3 * np.array(outliers))
+    found = fit(volts)
+    one = "1 reading: that is an outlier"
+    assert not found.is_supported
+    if min(abs(mv + 150) for mv in outliers) > 300:  # it is far enough off for the BIC
+        assert found.one_bic - found.bic > 10.0
+        assert (one if len(outliers) == 1 else "those are outliers") in found.why_one
+        assert mixture_findings(found).why == found.why_one
+
+
+@pytest.mark.parametrize(("held", "verdict"), [(4, False), (6, True)])
+def test_a_handful_is_a_population(held: int, verdict: bool) -> None:
+    """Of 500 readings as well: it is their number that counts, not their share."""
+    volts = np.append(sample(500, 0.0, 9), np.linspace(-0.62, -0.68, held))
+    assert fit(volts).is_supported is verdict
+
+
+def test_a_value_that_repeats_is_no_population() -> None:
+    found = fit(np.append(sample(100, 0.0, 10), [-0.5] * 8))
+    assert not found.is_supported
+    assert "a value that repeats" in found.why_one
 
 
 def test_readings_to_ten_millivolts_do_not_make_a_population_of_a_step() -> None:

@@ -8,6 +8,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from surveyed import grid, readings
 
+from inspect_cli.assessment.findings import disagreement, repeatability_findings
 from inspect_cli.assessment.readings import Readings, merged, readings_of
 from inspect_cli.schema.result import PointResult
 
@@ -59,6 +60,24 @@ def test_pooled_repeatability(rows: list[tuple[int, float]]) -> None:
     assert places.degrees_of_freedom == freedom
     if freedom:
         assert places.repeatability_v == pytest.approx(1e-3 * np.sqrt(squares / freedom), abs=1e-9)
+
+
+def test_readings_that_contradict_each_other_are_named() -> None:
+    """More than 20 mV, whatever of it is rounding; invalid readings say nothing."""
+    uv = [[u, 0.0] for u in (0, 0, 1, 1, 1, 2, 2, 3, 3, 4)]
+    mv = [-300, -320, -100, -364, -150, -200, -221, -100, np.nan, -500]
+    places = merged(readings(uv, mv))
+    np.testing.assert_allclose(1e3 * places.spread_v, [20, 264, 21, 0, 0], atol=1e-9)
+    found = repeatability_findings(places)
+    assert (found.disagreeing, found.worst) == (2, "3")
+    assert found.worst_spread_mv == pytest.approx(264.0)
+    assert disagreement(found) == (
+        "At 2 places the readings differ by more than 20 mV, most at the place of point 3, by "
+        "264 mV; repeated readings should agree within 10 mV (ASTM C876).",
+    )
+    one = repeatability_findings(merged(readings(uv[2:5], mv[2:5])))
+    assert disagreement(one)[0].startswith("The readings at the place of point 1 differ by 264 mV")
+    assert disagreement(repeatability_findings(merged(readings(uv[:2], mv[:2])))) == ()
 
 
 def test_equal_readings_of_a_place_keep_their_digits() -> None:

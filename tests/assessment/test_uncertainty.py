@@ -58,13 +58,26 @@ def test_contributions_add_by_their_squares() -> None:
     np.testing.assert_allclose(1e3 * budget.total_v, [expected, expected, np.nan], rtol=1e-6)
 
 
-@pytest.mark.parametrize(("electrode", "electrodes"), [("CSE", 2), ("CSE", 7), ("SCE", 1)])
+@pytest.mark.parametrize(("electrode", "electrodes"), [("CSE", 2), ("CSE", 7), ("SCE", 2)])
 def test_another_electrode_doubles_the_limit(electrode: str, electrodes: int) -> None:
     places = merged(readings(grid(2, 1, 0.2), [-300, -100]))
-    one = budget_of(places, basis_of("CSE"))
+    one = budget_of(places, basis_of(electrode))
+    assert "10 mV" in one.single_from
     two = budget_of(places, basis_of(electrode), electrodes=electrodes)
     assert two.single_v == pytest.approx(2.0 * one.single_v)
     assert "20 mV" in two.single_from
+
+
+@pytest.mark.parametrize("electrode", ["SCE", "Ag/AgCl sat. KCl"])
+def test_one_electrode_of_another_kind_is_still_one(electrode: str) -> None:
+    """Its repeats agree as a CSE's do; what the conversion adds is ±5 mV, 2.9 mV."""
+    places = merged(readings(grid(2, 1, 0.2), [-300, -100]))
+    own, other = (budget_of(places, basis_of(name)) for name in ("CSE", electrode))
+    assert other.single_v == own.single_v
+    assert (own.conversion_v, 1e3 * other.conversion_v) == (0.0, pytest.approx(5.0 / math.sqrt(3)))
+    more = 1e6 * (other.total_v**2 - own.total_v**2)
+    np.testing.assert_allclose(more, 25.0 / 3.0)
+    np.testing.assert_allclose(1e6 * (other.alone_v**2 - own.alone_v**2), 25.0 / 3.0)
 
 
 def test_the_surveys_own_repeatability_counts_when_it_is_known_well() -> None:
@@ -73,10 +86,27 @@ def test_the_surveys_own_repeatability_counts_when_it_is_known_well() -> None:
     mv = np.repeat(np.linspace(-500, -100, 12), 4) + rng.normal(0.0, 8.0, 48)
     budget = budget_of(merged(readings(uv, mv)), basis_of("CSE"))
     assert 1e3 * budget.single_v == pytest.approx(8.0, rel=4.0 / math.sqrt(2 * 36))
-    np.testing.assert_allclose(budget.repeatability_v, budget.single_v / 2.0)
+    own = mv.reshape(12, 4).std(axis=1, ddof=1)
+    expected = 1e-3 * np.maximum(own, 1e3 * budget.single_v) / 2.0
+    np.testing.assert_allclose(budget.repeatability_v, expected)
     assert budget.single_from == "repeated readings, 36 degrees of freedom"
     few = budget_of(merged(readings(uv[:12], mv[:12])), basis_of("CSE"))
     assert "ASTM" in few.single_from
+
+
+def test_readings_that_contradict_each_other_make_their_place_unsure() -> None:
+    """−156 and −420 mV: the mean of both is known to half their difference; others stay."""
+    uv = [[0.0, 0.0], [1.0, 0.0], [1.0, 0.0], [2.0, 0.0], [2.0, 0.0]]
+    places = merged(readings(uv, [-150, -156, -420, -160, -162], measurement_sd_v=0.0))
+    budget = budget_of(places, basis_of("CSE", 22.2))
+    single_mv = 10.0 / (1.959964 * math.sqrt(2.0))
+    expected = [single_mv, 132.0, single_mv / math.sqrt(2.0)]
+    np.testing.assert_allclose(1e3 * budget.total_v, expected, rtol=1e-6)
+    alone = [single_mv, 264.0 / math.sqrt(2.0), single_mv]
+    np.testing.assert_allclose(1e3 * budget.alone_v, alone, rtol=1e-6)
+    probabilities = class_probabilities(places.readings.potential_v, budget.total_v)
+    assert doubtful(places.readings.potential_v, probabilities).tolist() == [False, True, False]
+    assert probabilities[1].max() < 0.5
 
 
 @pytest.mark.parametrize(

@@ -137,6 +137,19 @@ def test_each_reading_is_corrected_by_its_own_temperature(tmp_path: Path) -> Non
     assert potentials == pytest.approx([-300.0, -291.0, -300.0])
 
 
+def test_readings_of_a_place_that_differ_are_warned_of(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    file = tmp_path / "twice.csv"
+    file.write_text("x,y,potential [mV]\n0,0,-150\n1,0,-156\n1,0,-420\n2,0,-160\n")
+    result = reported(tmp_path / "out", "--readings", str(file))
+    (warning,) = result["warnings"]
+    assert warning.startswith("The readings at the place of point 2 differ by 264 mV;")
+    assert f"warning: {warning}" in capsys.readouterr().err
+    assert warning in (tmp_path / "out" / "report.html").read_text(encoding="utf-8")
+    assert surface_of(result)["uncertainty"]["doubtful"] == 1
+
+
 def test_a_sidecar_says_what_the_file_does_not(small: Path, tmp_path: Path) -> None:
     small.with_name("deck.survey.yaml").write_text(
         "title: Deck of the north span\nspacing_m: 0.5\nelectrode: SCE\nlanguage: de\n",

@@ -26,7 +26,8 @@ from inspect_cli.reporting.content import (
 )
 from inspect_cli.reporting.evaluated import Evaluated
 from inspect_cli.reporting.evaluation import evaluation_blocks
-from inspect_cli.reporting.evaluation_basis import temperature_caveats
+from inspect_cli.reporting.evaluation_basis import temperature_caveats, uncertainty_blocks
+from inspect_cli.reporting.evaluation_places import gradient_blocks
 from inspect_cli.reporting.evaluation_points import sureness_of
 from inspect_cli.reporting.figure import Figure
 from inspect_cli.reporting.html import html
@@ -180,6 +181,42 @@ def test_repeated_readings_have_their_places_uncertainty() -> None:
     assert {s.sd_mv for s in sure.values()} == {
         1e3 * float(v) for v in np.unique(evaluated.assessed.budget.total_v)
     }
+
+
+@pytest.mark.parametrize(
+    ("extra", "english", "german"),
+    [
+        ([-420.0], "1 degree of freedom.", "bei 1 Freiheitsgrad."),
+        ([-420.0, -170.0], "2 degrees of freedom", "bei 2 Freiheitsgraden."),
+    ],
+)
+def test_readings_of_a_place_that_differ_are_told(
+    extra: list[float], english: str, german: str
+) -> None:
+    uv = np.vstack([lattice(5, 5), *[lattice(5, 5)[12:13]] * len(extra)])
+    evaluated = surveyed(uv, [*np.linspace(-150.0, -170.0, 25), *extra])
+    blocks = uncertainty_blocks(evaluated.assessed.summary)
+    told = next(block.text for block in blocks if isinstance(block, Paragraph))
+    assert english in ENGLISH.plain(told)
+    assert "The readings at the place of point 13 differ by 260 mV" in ENGLISH.plain(told)
+    assert german in GERMAN.plain(told)
+    assert "an der Stelle von Punkt 13 weichen um 260 mV" in GERMAN.plain(told)
+
+
+def test_how_deep_a_minimum_has_to_be_is_told(deck: Evaluated) -> None:
+    found = deck.assessed.summary.gradient
+    assert found.scatter_mv is not None
+    told = [b.text for b in gradient_blocks(found) if isinstance(b, Paragraph)]
+    assert f"at least {found.least_depth_mv:.0f} mV deep" in ENGLISH.plain(told[0])
+    assert f"scatters by {found.scatter_mv:.1f} mV around" in ENGLISH.plain(told[0])
+
+
+def test_the_conversion_has_a_row_of_its_own() -> None:
+    """Only where there is one."""
+    for electrode, rows in (("CSE", 0), ("SCE", 1)):
+        found = surveyed(lattice(3, 3), [-150.0] * 9, basis=basis_of(electrode, 22.2))
+        table = table_of(uncertainty_blocks(found.assessed.summary), "Standard uncertainty")
+        assert sum(row == ["conversion to CSE", "2.9"] for row in table) == rows
 
 
 def test_the_map_is_the_kriged_one(deck: Evaluated) -> None:
