@@ -22,8 +22,10 @@ class Condition(NamedTuple):
     high_mv: float
 
 
+SATURATED: Final = "water-saturated, without oxygen"
+
 CONDITIONS: Final = (
-    Condition("water-saturated, without oxygen", -1000.0, -900.0),
+    Condition(SATURATED, -1000.0, -900.0),
     Condition("moist, chloride-contaminated", -600.0, -400.0),
     Condition("moist, chloride-free", -200.0, 100.0),
     Condition("moist, carbonated", -400.0, 100.0),

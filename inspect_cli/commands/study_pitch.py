@@ -36,6 +36,7 @@ from inspect_cli.reporting.figures_pitch import (
     pitch_figure,
 )
 from inspect_cli.reporting.pitch_findings import (
+    FALSELY_ACTIVE,
     OF_AREA,
     OF_SITES,
     TOO_RESISTIVE_BY_RULE,
@@ -143,7 +144,7 @@ def _concluded(result: StudyResult) -> StudyResult:
     thresholds = tuple(_threshold(result, pitches, metric) for metric in said)
     words = tuple(_in_words(pitches, threshold, said[threshold.metric]) for threshold in thresholds)
     doubts = (doubt for t in thresholds for doubt in _unsure(pitches, t, said[t.metric]))
-    more = (*doubts, *_unsteady(pitches), *_too_resistive(result))
+    more = (*doubts, *_unsteady(pitches), *_falsely(result, pitches), *_too_resistive(result))
     return result.model_copy(update={"thresholds": thresholds, "findings": words + more})
 
 
@@ -187,6 +188,19 @@ def _unsure(
 def _percent(variant: StudyVariant, metric: str) -> tuple[str, str]:
     value, error = variant.value(metric) or 0.0, variant.standard_errors.get(metric, 0.0)
     return f"{100.0 * value:.1f}", f"{100.0 * error:.1f}"
+
+
+def _falsely(result: StudyResult, pitches: tuple[StudyVariant, ...]) -> Iterator[str]:
+    """What finding so much costs: sound surface that is called active, at the finest pitch."""
+    active, false_m2 = result.common.get(ACTIVE), pitches[0].value(FALSE)
+    if active is None or not active.value or not false_m2:
+        return
+    yield written(
+        FALSELY_ACTIVE,
+        false=f"{false_m2:.3f}",
+        active=f"{active.value:.3f}",
+        pitch=shortest(pitches[0].values[result.quantities[0].name]),
+    )
 
 
 def _too_resistive(result: StudyResult) -> Iterator[str]:

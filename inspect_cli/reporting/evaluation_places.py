@@ -48,12 +48,20 @@ def judged(found: GradientFindings) -> Text:
             "The one negative minimum rises by at least 100 mV within 1 m and indicates active "
             "corrosion by the gradient criterion (RILEM TC 154-EMC)."
         )
+    if found.active == 0:
+        return count(
+            found.minima,
+            "The gradient criterion (RILEM TC 154-EMC) does not call the one negative minimum "
+            "active.",
+            "The gradient criterion (RILEM TC 154-EMC) calls none of {n} negative minima active.",
+        )
     return count(
-        found.minima,
-        "The gradient criterion (RILEM TC 154-EMC) does not call the one negative minimum active.",
-        "Of {n} negative minima {active} rise by at least 100 mV within 1 m and indicate active "
+        found.active,
+        "One of {minima} negative minima rises by at least 100 mV within 1 m and indicates active "
         "corrosion by the gradient criterion (RILEM TC 154-EMC).",
-        active=number(found.active, 0),
+        "Of {minima} negative minima {n} rise by at least 100 mV within 1 m and indicate active "
+        "corrosion by the gradient criterion (RILEM TC 154-EMC).",
+        minima=number(found.minima, 0),
     )
 
 

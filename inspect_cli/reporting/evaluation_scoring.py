@@ -94,7 +94,8 @@ def _too_resistive(scoring: Scoring) -> Text:
         return ""
     return say(
         "Over {resistive} m² ({share}) of the truly active area the concrete truly has more than "
-        "{limit} Ω·m: there the rule itself says possible at the most, whatever the potential.",
+        "{limit} Ω·m: there the rule itself says possible at the most, whatever the potential. "
+        "Such a place is found only if the point that stands for it lies beside it.",
         resistive=area(scoring.too_resistive_m2),
         share=percent(scoring.too_resistive_m2 / scoring.confusion().active_m2),
         limit=number(SUSTAINS_CORROSION_OHM_M, 0),

@@ -4,13 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Sequence
 
+from inspect_cli.assessment.conditions import SATURATED
 from inspect_cli.reporting.content import Facts
 from inspect_cli.reporting.evaluated import Evaluated
 from inspect_cli.reporting.evaluation_basis import temperature_caveats
 from inspect_cli.reporting.evaluation_classes import area, percent
 from inspect_cli.reporting.evaluation_places import judged
 from inspect_cli.reporting.recorded import recorded
-from inspect_cli.reporting.text import Text, number, say
+from inspect_cli.reporting.text import Text, count, number, say
 from inspect_cli.schema.assessment import MixtureFindings, SurfaceAssessment
 
 SPECIALIST = say(
@@ -97,8 +98,23 @@ def _areas(summary: SurfaceAssessment) -> Iterator[Text]:
         )
 
 
-def _gradient_and_populations(summary: SurfaceAssessment) -> tuple[Text, Text]:
-    return judged(summary.gradient), _populations(summary.mixture)
+def _gradient_and_populations(summary: SurfaceAssessment) -> Iterator[Text]:
+    yield from _saturated(summary)
+    yield judged(summary.gradient)
+    yield _populations(summary.mixture)
+
+
+def _saturated(summary: SurfaceAssessment) -> Iterator[Text]:
+    """Potentials so negative that steel may be passive and only without oxygen."""
+    n = next(c.count for c in summary.conditions if c.name == SATURATED)
+    if n:
+        yield count(
+            n,
+            "{n} potential is typical of water-saturated concrete without oxygen (RILEM TC "
+            "154-EMC), in which steel is that negative without corroding.",
+            "{n} potentials are typical of water-saturated concrete without oxygen (RILEM TC "
+            "154-EMC), in which steel is that negative without corroding.",
+        )
 
 
 def _populations(mixture: MixtureFindings) -> Text:

@@ -61,6 +61,10 @@ UNSTEADY = say(
     "The grid of {wider} m missed less area than that of {finer} m, by more than twice the "
     "standard error: active sites on this surface lie in step with the grid."
 )
+FALSELY_ACTIVE = say(
+    "Beside {active} m² that are truly active, {false} m² of sound surface are judged active at "
+    "{pitch} m already."
+)
 TOO_RESISTIVE_BY_RULE = say(
     "Over {area} m² ({share} %) of the truly active area the concrete truly has more than {limit} "
     "Ω·m. A reading there is possible at the most by the combined rule, at any pitch; only one "
@@ -71,6 +75,7 @@ PITCH_FINDINGS: tuple[Said, ...] = (
     *(OF_AREA.never, OF_AREA.always, OF_AREA.first, OF_AREA.unsure),
     *(OF_SITES.never, OF_SITES.always, OF_SITES.first, OF_SITES.unsure),
     UNSTEADY,
+    FALSELY_ACTIVE,
     TOO_RESISTIVE_BY_RULE,
 )
 

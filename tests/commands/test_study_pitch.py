@@ -190,7 +190,16 @@ def test_what_it_costs_is_planned_and_told_in_words(mission: Path) -> None:
     by_area, by_site = result.thresholds
     assert (by_area.metric, by_area.first_below, by_area.level) == (DETECTED, 0.15, 0.95)
     assert (by_site.metric, by_site.first_below) == (SITES, None)
-    area, sites = result.findings
+    area, sites, falsely = result.findings
+    false_m2, active_m2 = (
+        fine.value("study.false_area_m2"),
+        result.common["study.active_area_m2"].value,
+    )
+    assert false_m2
+    assert falsely == (
+        f"Beside {active_m2:.3f} m² that are truly active, {false_m2:.3f} m² of sound surface are "
+        "judged active at 0.15 m already."
+    )
     assert area.startswith("Detection is below 95 % at the finest pitch already, 0.15 m:")
     assert sites.startswith("Detection of whole sites stays at 95 % or above up to the widest")
     page = outcome.page.read_text()
