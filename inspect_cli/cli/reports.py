@@ -38,7 +38,7 @@ def report(
         ),
     ] = None,
     resistivity: Annotated[
-        Path | None,
+        list[Path] | None,
         typer.Option(
             metavar="FILE",
             parser=named_path,
@@ -112,7 +112,7 @@ def report(
         "electrode": electrode,
         "temperature_c": temperature_c,
         "spacing_m": None if spacing_m is None else _spacing(spacing_m),
-        "resistivity": resistivity,
+        "resistivity": _only("--resistivity", resistivity),
         "resistivity_unit": resistivity_unit,
         "coordinate_unit": coordinate_unit,
         "layout": layout,
@@ -122,15 +122,23 @@ def report(
         "title": title,
         "language": language,
     }
-    if not readings:
+    survey = _only("--readings", readings)
+    if survey is None:
         _refuse_options_of_readings(options)
         return _report_flights(runs or [], out, language or "en", pdf, export, no_pictures, as_json)
     if runs:
         raise InputError("--readings reports a file, and flights are reported without it")
-    if len(readings) > 1:
+    return _report_readings(survey, options, out, pdf, export, as_json)
+
+
+def _only(option: str, files: list[Path] | None) -> Path | None:
+    """The one file that an option names; of several, the command line keeps none silently."""
+    if not files:
+        return None
+    if len(files) > 1:
         hint = "give each file a report of its own: one file, one surface, one report"
-        raise InputError(f"--readings is given {len(readings)} times", hint=hint)
-    return _report_readings(readings[0], options, out, pdf, export, as_json)
+        raise InputError(f"{option} is given {len(files)} times", hint=hint)
+    return files[0]
 
 
 def _report_flights(

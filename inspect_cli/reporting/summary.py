@@ -219,13 +219,14 @@ def reading_boxes(points: Sequence[ReadPoint]) -> list[Box]:
     """The key figures of readings."""
     read = [p.point for p in points if p.point.potential_mv is not None]
     potentials = [point.potential_mv for point in read if point.potential_mv is not None]
-    together_active = say("active by potential and resistivity")
+    valid = sum(p.point.valid for p in points)
+    by_both = say("active by potential and resistivity")
     by_potential = sum(p.astm_class == "active" for p in read)
     active = sum(p.corrosion == "active" for p in read)
     return [
-        Box(say("valid readings"), f"{sum(p.point.valid for p in points)} / {len(points)}"),
+        Box(say("valid readings"), together(number(valid, 0), " / ", number(len(points), 0))),
         Box(say("active by potential (ASTM C876)"), number(by_potential, 0)),
-        *([Box(together_active, number(active, 0))] if _has_resistivity(points) else []),
+        *([Box(by_both, number(active, 0))] if _has_resistivity(points) else []),
         Box(say("most negative"), number(min(potentials, default=None), 0), "mV CSE"),
     ]
 

@@ -310,15 +310,17 @@ def test_a_folder_is_no_file_of_readings(
     assert "name one file of readings" in told
 
 
-def test_a_report_has_one_file(
-    small: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+@pytest.mark.parametrize("option", ["--readings", "--resistivity"])
+def test_a_report_has_one_file_of_each_kind(
+    option: str, small: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     other = tmp_path / "other.csv"
     other.write_text(SMALL, encoding="utf-8")
-    asked = ["report", "--readings", str(small), "--readings", str(other)]
+    asked = ["report", "--readings", str(small), option, str(other)]
+    asked += [option, str(other)] if option != "--readings" else []
     assert cli.run([*asked, "--out", str(tmp_path / "out")]) == 2
     told = " ".join(capsys.readouterr().err.split())
-    assert "--readings is given 2 times" in told
+    assert f"{option} is given 2 times" in told
     assert "one file, one surface, one report" in told
     assert not (tmp_path / "out").exists()
 
