@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 from example_flights import Flight, spoil
 from plotly.offline import get_plotlyjs
-from report_pages import Page, Reported, decoded, trace
+from report_pages import Page, Reported, decoded
 
 from inspect_cli.assessment.classes import COMBINED_RULE
 from inspect_cli.commands.evaluating import evaluated_points
@@ -144,9 +144,11 @@ def test_what_a_user_wrote_is_text(fly: Fly, report: Report) -> None:
     assert not any("pwned" in text for text in executed)
     assert not any(tag == "b" for tag, _ in page.tags)
     # Plotly reads tags in labels, so there the text arrives with entities.
-    text = trace(page.figures["map-1"], "labels")["text"][0]
-    assert "<script" not in text
-    assert "&lt;/script&gt;&lt;script&gt;" in text
+    drawn = page.figures["map-1"]["data"]
+    texts = [text for one in drawn for key in ("text", "customdata") for text in one.get(key) or ()]
+    assert any("&lt;/script&gt;&lt;script&gt;" in text for text in texts)
+    assert any("&lt;/script&gt;&lt;scr…" in text for text in texts)
+    assert not any("<scr" in text for text in texts)
 
 
 def without_truth(flight: Flight) -> None:
