@@ -7,6 +7,7 @@ stdout, an error too; everything for people goes to stderr. Imports inside the c
 
 from __future__ import annotations
 
+import gc
 import os
 import sys
 
@@ -35,12 +36,17 @@ COMMANDS = (
 )
 """In the order of ``inspect --help``."""
 
+SEARCHED_EVERY = (200_000, 50, 100)
+"""How rarely Python looks for cycles of dead objects: a report holds a hundred thousand living
+points, and looking through them again and again took a fifth of its time."""
+
 for _command in COMMANDS:
     app.command()(_command)
 
 
 def main() -> None:
     """The program ``inspect``."""
+    gc.set_threshold(*SEARCHED_EVERY)
     sys.exit(run(sys.argv[1:]))
 
 

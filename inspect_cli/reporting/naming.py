@@ -11,13 +11,16 @@ ALL_NAMED = 12
 """Up to so many, all are named."""
 NAMED = 10
 """Of more, so many."""
+SORTED = 1000
+"""Of more than so many, ten at the beginning are examples; they stand as they were read."""
 
 
 def named(labels: Sequence[str]) -> Text:
     """The labels as an enumeration, 2 before 10; of many the first, and how many more there are."""
     if not labels:
         return NOTHING
-    labels = sorted(labels, key=_counted)
+    if len(labels) <= SORTED:
+        labels = sorted(labels, key=_counted)
     if len(labels) <= ALL_NAMED:
         return Listed(tuple(labels))
     more = count(len(labels) - NAMED, "{n} more", "{n} more")
