@@ -11,7 +11,7 @@ from inspect_cli.assessment.assess import Assessed
 from inspect_cli.assessment.kriging import krige
 from inspect_cli.log.reader import RunLog
 from inspect_cli.metrics.assessed import assess_points
-from inspect_cli.reporting.evaluated import Evaluated
+from inspect_cli.reporting.half_cell.surface_findings import Evaluated
 from inspect_cli.schema.result import PointResult
 
 

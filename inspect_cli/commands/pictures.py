@@ -9,8 +9,8 @@ from inspect_cli.log.reader import RunLog
 from inspect_cli.pictures.names import FILM_NAME, SCENE_NAME
 from inspect_cli.pictures.script import LegendEntry
 from inspect_cli.pictures.take import Pictures, take_pictures
-from inspect_cli.reporting.language import language as language_of
-from inspect_cli.reporting.palette import ASTM_STYLES, INVALID_STYLE
+from inspect_cli.reporting.figures.palette import ASTM_STYLES, INVALID_STYLE
+from inspect_cli.reporting.words.language import language as language_of
 from inspect_cli.schema.result import Result
 from inspect_cli.schema.survey import LanguageCode
 

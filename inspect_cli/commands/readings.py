@@ -42,8 +42,8 @@ from inspect_cli.errors import InputError
 from inspect_cli.exchange.readings import HandedReadings
 from inspect_cli.exchange.readings_csv import readings_csv
 from inspect_cli.files import write_whole
-from inspect_cli.reporting.evaluated import Evaluated
-from inspect_cli.reporting.readings import readings_document
+from inspect_cli.reporting.documents.readings import readings_document
+from inspect_cli.reporting.half_cell.surface_findings import Evaluated
 from inspect_cli.schema.assessment import Basis
 from inspect_cli.schema.readings import ReadingsResult, SourceOfReadings
 from inspect_cli.schema.result import PointResult

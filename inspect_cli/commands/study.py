@@ -30,9 +30,9 @@ from inspect_cli.metrics.evaluate import measure
 from inspect_cli.metrics.flight import Flight
 from inspect_cli.regression.flights import FlightEnd, FlightTask, fly_all
 from inspect_cli.regression.run import Progress
-from inspect_cli.reporting.html import html
-from inspect_cli.reporting.language import language as language_of
-from inspect_cli.reporting.study import study_document
+from inspect_cli.reporting.screen.html import html
+from inspect_cli.reporting.studies.document import study_document
+from inspect_cli.reporting.words.language import language as language_of
 from inspect_cli.schema.coverage import CoveragePlan
 from inspect_cli.schema.explain import suggest
 from inspect_cli.schema.loading import Loaded, load_mission

@@ -18,7 +18,7 @@ from inspect_cli.commands.pictures import mark_styles
 from inspect_cli.pictures import take
 from inspect_cli.pictures.script import FILM_PX, FPS, SCENE_PX
 from inspect_cli.pictures.take import Pictures, take_pictures
-from inspect_cli.reporting.palette import ASTM_STYLES
+from inspect_cli.reporting.figures.palette import ASTM_STYLES
 
 pytestmark = pytest.mark.xdist_group("pictures")  # one rendering for all
 

@@ -15,7 +15,7 @@ from report_pages import Page, Reported
 from inspect_cli.commands.delivery import Wanted, deliver
 from inspect_cli.commands.evaluating import evaluated_points
 from inspect_cli.metrics.evaluate import evaluate
-from inspect_cli.reporting.report import report_document
+from inspect_cli.reporting.documents.flight import report_document
 
 
 @pytest.fixture

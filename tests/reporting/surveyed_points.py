@@ -11,8 +11,8 @@ from inspect_cli.assessment.assess import assess
 from inspect_cli.assessment.classes import astm_class, combined_verdict
 from inspect_cli.assessment.readings import Readings
 from inspect_cli.commands.evaluating import mapped
-from inspect_cli.reporting.evaluated import Evaluated
-from inspect_cli.reporting.points import ReadPoint
+from inspect_cli.reporting.half_cell.points import ReadPoint
+from inspect_cli.reporting.half_cell.surface_findings import Evaluated
 from inspect_cli.schema.assessment import Basis
 from inspect_cli.schema.result import PointResult
 

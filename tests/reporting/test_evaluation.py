@@ -11,7 +11,8 @@ from surveyed_points import points_of, surveyed
 
 from inspect_cli.assessment.electrodes import basis_of
 from inspect_cli.pictures.take import Pictures
-from inspect_cli.reporting.content import (
+from inspect_cli.reporting.chapters.pictures import caption, pictures_sections
+from inspect_cli.reporting.content.blocks import (
     Block,
     Column,
     Cover,
@@ -24,21 +25,20 @@ from inspect_cli.reporting.content import (
     Section,
     Table,
 )
-from inspect_cli.reporting.evaluated import Evaluated
-from inspect_cli.reporting.evaluation import evaluation_blocks
-from inspect_cli.reporting.evaluation_basis import temperature_caveats, uncertainty_blocks
-from inspect_cli.reporting.evaluation_places import gradient_blocks
-from inspect_cli.reporting.evaluation_points import sureness_of
-from inspect_cli.reporting.figure import Figure
-from inspect_cli.reporting.html import html
-from inspect_cli.reporting.language import language
-from inspect_cli.reporting.map_marks import MOST_MARKERS
-from inspect_cli.reporting.naming import named
-from inspect_cli.reporting.pictures import caption, pictures_sections
-from inspect_cli.reporting.plots import draw
-from inspect_cli.reporting.points import ReadPoint
-from inspect_cli.reporting.summary import findings, reading_boxes
-from inspect_cli.reporting.text import Said
+from inspect_cli.reporting.documents.summary import findings, reading_boxes
+from inspect_cli.reporting.figures.figure import Figure
+from inspect_cli.reporting.half_cell.basis import temperature_caveats, uncertainty_blocks
+from inspect_cli.reporting.half_cell.evaluation import evaluation_blocks
+from inspect_cli.reporting.half_cell.map_marks import MOST_MARKERS
+from inspect_cli.reporting.half_cell.minima import gradient_blocks
+from inspect_cli.reporting.half_cell.point_table import sureness_of
+from inspect_cli.reporting.half_cell.points import ReadPoint
+from inspect_cli.reporting.half_cell.surface_findings import Evaluated
+from inspect_cli.reporting.paper.plots import draw
+from inspect_cli.reporting.screen.html import html
+from inspect_cli.reporting.words.language import language
+from inspect_cli.reporting.words.naming import named
+from inspect_cli.reporting.words.text import Said
 from inspect_cli.schema.scoring import Confusion, ConfusionRow, Rule, Scoring, SurfaceScoring
 
 ENGLISH, GERMAN = language("en"), language("de")

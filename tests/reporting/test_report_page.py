@@ -27,9 +27,9 @@ from inspect_cli.records import (
     SurfaceEstimate,
     TrueContact,
 )
-from inspect_cli.reporting.html import html
-from inspect_cli.reporting.language import language
-from inspect_cli.reporting.report import report_document
+from inspect_cli.reporting.documents.flight import report_document
+from inspect_cli.reporting.screen.html import html
+from inspect_cli.reporting.words.language import language
 from inspect_cli.schema.result import Metric
 
 Fly = Callable[..., Flight]
