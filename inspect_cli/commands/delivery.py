@@ -16,9 +16,8 @@ from inspect_cli.exchange.readings import HandedReadings
 from inspect_cli.files import write_whole
 from inspect_cli.log.reader import RunLog
 from inspect_cli.pictures.names import FILM_NAME, SCENE_NAME
-from inspect_cli.reporting.content.blocks import Document
+from inspect_cli.reporting.content.blocks import REPORT_NAME, Document
 from inspect_cli.reporting.screen.html import html
-from inspect_cli.reporting.screen.page import REPORT_NAME
 from inspect_cli.reporting.words.language import language as language_of
 from inspect_cli.schema.explain import suggest
 from inspect_cli.schema.result import Result

@@ -9,7 +9,7 @@ import numpy as np
 from inspect_cli.log.reader import RunLog
 from inspect_cli.metrics.flight import Flight, NotMeasured
 from inspect_cli.reporting.content.blocks import Block, Facts, Heading, Paragraph, Section, drawn
-from inspect_cli.reporting.content.tables import metrics_table
+from inspect_cli.reporting.content.metrics_table import metrics_table
 from inspect_cli.reporting.figures.timeline import Timeline
 from inspect_cli.reporting.flight.drawing import course_figures, drawing_figures, drawings_of
 from inspect_cli.reporting.flight.ground_truth import (

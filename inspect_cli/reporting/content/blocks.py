@@ -1,6 +1,6 @@
 """What a report says, before it is a page: blocks of text, numbers, tables and figures.
 
-The content is free of any language and of any medium. ``html`` and ``typeset`` turn the same
+The content is free of any language and of any medium. ``screen`` and ``paper`` turn the same
 document into a page for the screen and into one for paper, in a ``Language``.
 """
 
@@ -12,6 +12,9 @@ from typing import Literal, TypeAlias
 
 from inspect_cli.reporting.figures.figure import Figure
 from inspect_cli.reporting.words.text import Text
+
+REPORT_NAME = "report.html"
+"""The page of a flight, a survey or a file, in its folder; pages link to one another by it."""
 
 
 @dataclass(frozen=True)

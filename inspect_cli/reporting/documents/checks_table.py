@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from inspect_cli.reporting.content.blocks import Column, Table
-from inspect_cli.reporting.content.tables import meaning, unit_shown
+from inspect_cli.reporting.content.metrics_table import meaning, unit_shown
 from inspect_cli.reporting.words.published import SOURCE, published_of
 from inspect_cli.reporting.words.recorded import recorded
 from inspect_cli.reporting.words.text import (

@@ -19,12 +19,7 @@ from inspect_cli.reporting.content.blocks import (
     Section,
     drawn,
 )
-from inspect_cli.reporting.content.tables import (
-    events_table,
-    fits_table,
-    metrics_table,
-    truth_table,
-)
+from inspect_cli.reporting.content.metrics_table import metrics_table
 from inspect_cli.reporting.documents.checks_table import checks_table
 from inspect_cli.reporting.documents.summary import (
     SIGNED,
@@ -38,6 +33,8 @@ from inspect_cli.reporting.documents.summary import (
 )
 from inspect_cli.reporting.figures.rows import rows_of
 from inspect_cli.reporting.figures.timeline import Timeline, timeline_of
+from inspect_cli.reporting.flight.events_table import events_table
+from inspect_cli.reporting.flight.fits_table import fits_table
 from inspect_cli.reporting.flight.forces import (
     actuator_figures,
     force_figures,
@@ -50,6 +47,7 @@ from inspect_cli.reporting.flight.tracking import tracking_figures
 from inspect_cli.reporting.half_cell.evaluation import evaluation_blocks
 from inspect_cli.reporting.half_cell.points import ReadPoint, read_points
 from inspect_cli.reporting.half_cell.surface_findings import Evaluated
+from inspect_cli.reporting.half_cell.truth_table import truth_table
 from inspect_cli.reporting.words.recorded import recorded
 from inspect_cli.reporting.words.text import NOTHING, Badge, Text, say
 from inspect_cli.schema.plan import Plan

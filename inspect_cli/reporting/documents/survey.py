@@ -8,6 +8,7 @@ from inspect_cli.log.reader import RunLog
 from inspect_cli.reporting.chapters.pictures import Rendered, pictures_sections
 from inspect_cli.reporting.chapters.provenance import provenance
 from inspect_cli.reporting.content.blocks import (
+    REPORT_NAME,
     Block,
     Column,
     Document,
@@ -16,17 +17,17 @@ from inspect_cli.reporting.content.blocks import (
     Table,
     drawn,
 )
-from inspect_cli.reporting.content.tables import fits_table, metrics_table
+from inspect_cli.reporting.content.metrics_table import metrics_table
 from inspect_cli.reporting.documents.flight import (
     cover,
     summary,
     survey_content,
 )
+from inspect_cli.reporting.flight.fits_table import fits_table
 from inspect_cli.reporting.flight.mission_profile import works_of
 from inspect_cli.reporting.flight.sorties import energy_figure, tour_figures
 from inspect_cli.reporting.half_cell.points import read_points
 from inspect_cli.reporting.half_cell.surface_findings import Evaluated
-from inspect_cli.reporting.screen.page import REPORT_NAME
 from inspect_cli.reporting.words.recorded import recorded
 from inspect_cli.reporting.words.text import (
     NOTHING,

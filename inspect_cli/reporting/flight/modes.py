@@ -6,10 +6,10 @@ import numpy as np
 
 from inspect_cli.log.reader import RunLog
 from inspect_cli.records import Mode, Reference
-from inspect_cli.reporting.content.tables import QUIET_LEVELS
 from inspect_cli.reporting.figures.figure import Figure, Json, numbers, words
 from inspect_cli.reporting.figures.palette import INK, MODE_COLOURS, MUTED, VERMILION
 from inspect_cli.reporting.figures.rows import rows_of
+from inspect_cli.reporting.flight.events_table import QUIET_LEVELS
 from inspect_cli.reporting.words.recorded import recorded
 from inspect_cli.reporting.words.text import say, together
 from inspect_cli.spatial.arrays import Structured

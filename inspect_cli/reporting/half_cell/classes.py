@@ -10,7 +10,7 @@ import numpy as np
 from inspect_cli.assessment.assess import Assessed
 from inspect_cli.assessment.classes import COMBINED_RULE
 from inspect_cli.reporting.content.blocks import Block, Column, Paragraph, Table
-from inspect_cli.reporting.content.tables import class_chip
+from inspect_cli.reporting.half_cell.class_chips import class_chip
 from inspect_cli.reporting.words.naming import named
 from inspect_cli.reporting.words.recorded import recorded
 from inspect_cli.reporting.words.text import (

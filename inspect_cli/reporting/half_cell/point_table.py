@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 from inspect_cli.assessment.assess import Assessed
 from inspect_cli.reporting.content.blocks import Column, Table
-from inspect_cli.reporting.content.tables import MOST_POINTS, class_chip, rows_left_out
+from inspect_cli.reporting.half_cell.class_chips import class_chip
 from inspect_cli.reporting.half_cell.places import index_of_places, place_key, points_on
 from inspect_cli.reporting.half_cell.points import ReadPoint
 from inspect_cli.reporting.half_cell.surface_findings import Evaluated
@@ -23,6 +23,8 @@ from inspect_cli.reporting.words.text import (
 
 CERTAIN = 0.999
 """Of a class, a probability that no more is said about."""
+MOST_POINTS = 1000
+"""Rows of a table of points; ``readings.csv`` has all of them."""
 
 Filled = tuple[Column, Sequence[Text]]
 """A column and its cells."""
@@ -174,3 +176,14 @@ def _validity(p: ReadPoint) -> Text:
 
 def _says_something(cell: Text) -> bool:
     return bool(getattr(cell, "value", cell) not in (None, NOTHING))
+
+
+def rows_left_out(points: int) -> Text:
+    """Which points a table has no row for; nothing where it has all."""
+    if points <= MOST_POINTS:
+        return ""
+    return say(
+        "The first {shown} of {n} points; readings.csv beside this report has all of them.",
+        shown=number(MOST_POINTS, 0),
+        n=number(points, 0),
+    )

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from inspect_cli.assessment.classes import SUSTAINS_CORROSION_OHM_M
 from inspect_cli.reporting.content.blocks import Block, Column, Heading, Paragraph, Table
-from inspect_cli.reporting.content.tables import class_word
+from inspect_cli.reporting.half_cell.class_chips import class_word
 from inspect_cli.reporting.half_cell.classes import area, percent
 from inspect_cli.reporting.words.text import NOTHING, Text, count, number, say, sentences
 from inspect_cli.schema.scoring import Confusion, ConfusionRow, Rule, Scoring

@@ -28,9 +28,6 @@ PLOT_WORDS = (
 )
 """What plotly itself says on this page, by the keys of its dictionaries."""
 
-REPORT_NAME = "report.html"
-"""The page of a flight, a survey or a file, in its folder."""
-
 
 def page(
     title: str,

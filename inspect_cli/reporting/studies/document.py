@@ -15,7 +15,7 @@ from inspect_cli.reporting.content.blocks import (
     Table,
     drawn,
 )
-from inspect_cli.reporting.content.tables import unit_shown
+from inspect_cli.reporting.content.metrics_table import unit_shown
 from inspect_cli.reporting.figures.figure import Figure
 from inspect_cli.reporting.words.published import SOURCE
 from inspect_cli.reporting.words.recorded import recorded
