@@ -13,8 +13,7 @@ from inspect_cli.commands.study import STUDIES
 from inspect_cli.metrics.evaluate import evaluate
 from inspect_cli.records import InvalidReason, Reading
 from inspect_cli.reporting.content.blocks import Document
-from inspect_cli.reporting.documents.flight import report_document
-from inspect_cli.reporting.documents.survey import survey_document
+from inspect_cli.reporting.documents.flight import report_document, survey_document
 from inspect_cli.reporting.studies.document import study_document
 from inspect_cli.schema.coverage import CoveragePlan, Skipped, Sortie
 from inspect_cli.schema.plan import Plan

@@ -11,7 +11,7 @@ from surveyed_points import points_of, surveyed
 
 from inspect_cli.assessment.electrodes import basis_of
 from inspect_cli.pictures.take import Pictures
-from inspect_cli.reporting.chapters.pictures import caption, pictures_sections
+from inspect_cli.reporting.chapters.pictures import caption, picture_blocks
 from inspect_cli.reporting.content.blocks import (
     Block,
     Column,
@@ -25,7 +25,6 @@ from inspect_cli.reporting.content.blocks import (
     Section,
     Table,
 )
-from inspect_cli.reporting.documents.summary import findings, reading_boxes
 from inspect_cli.reporting.figures.figure import Figure
 from inspect_cli.reporting.half_cell.basis import temperature_caveats, uncertainty_blocks
 from inspect_cli.reporting.half_cell.evaluation import evaluation_blocks
@@ -33,6 +32,7 @@ from inspect_cli.reporting.half_cell.map_marks import MOST_MARKERS
 from inspect_cli.reporting.half_cell.minima import gradient_blocks
 from inspect_cli.reporting.half_cell.point_table import sureness_of
 from inspect_cli.reporting.half_cell.points import ReadPoint
+from inspect_cli.reporting.half_cell.readings_text import findings, reading_boxes
 from inspect_cli.reporting.half_cell.surface_findings import Evaluated
 from inspect_cli.reporting.paper.plots import draw
 from inspect_cli.reporting.screen.html import html
@@ -455,17 +455,16 @@ def test_pictures_are_told_in_every_language() -> None:
     assert german.endswith("Das Protokoll brach ab.")
     film = "X: 60 s of flight, shown 4.3 times as fast. Rendered from the log. Poses are the"
     film += " vehicle's own estimate, the structure is as the planner believed it."
-    (section,) = pictures_sections(Pictures(PNG, scene, b"mp4", film))
-    assert [type(block) for block in section.blocks] == [Picture, Film]
+    blocks = list(picture_blocks(Pictures(PNG, scene, b"mp4", film)))
+    assert [type(block) for block in blocks] == [Picture, Film]
     assert "4,3-mal" in GERMAN.plain(caption(film))
     assert "estimate" not in GERMAN.plain(caption(film))
 
 
 def test_missing_pictures_are_a_note_and_unwanted_ones_nothing() -> None:
-    assert pictures_sections(None) == []
+    assert list(picture_blocks(None)) == []
     note = "No pictures: rendering took longer than 90 s; 'inspect doctor' says what is missing."
-    (section,) = pictures_sections(Pictures(note=note))
-    (paragraph,) = section.blocks
+    (paragraph,) = picture_blocks(Pictures(note=note))
     assert isinstance(paragraph, Paragraph)
     assert paragraph.role == "note"
     assert isinstance(paragraph.text, Said)

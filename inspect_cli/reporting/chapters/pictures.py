@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import Protocol
 
-from inspect_cli.reporting.content.blocks import Block, Film, Paragraph, Picture, Section
+from inspect_cli.reporting.chapters.chapter import Chapter
+from inspect_cli.reporting.chapters.material import Rendered
+from inspect_cli.reporting.content.blocks import Block, Film, Paragraph, Picture
 from inspect_cli.reporting.words.recorded import recorded
 from inspect_cli.reporting.words.text import Text, say, sentences
 
@@ -14,38 +15,10 @@ RENDERED = "Rendered from the log"
 sign."""
 
 
-class Rendered(Protocol):
-    """What was rendered of a flight, with captions in our own English."""
-
-    @property
-    def scene_png(self) -> bytes | None:
-        """A still."""
-
-    @property
-    def scene_caption(self) -> str:
-        """What it shows."""
-
-    @property
-    def film_mp4(self) -> bytes | None:
-        """A film."""
-
-    @property
-    def film_caption(self) -> str:
-        """What it shows."""
-
-    @property
-    def note(self) -> str:
-        """Why one of them is missing; empty when there are both."""
-
-
-def pictures_sections(pictures: Rendered | None) -> list[Section]:
-    """The section with the pictures; none where none were wanted."""
+def picture_blocks(pictures: Rendered | None) -> Iterator[Block]:
+    """The scene and the film with their captions, and why one is missing; none if not wanted."""
     if pictures is None:
-        return []
-    return [Section("pictures", say("Pictures"), list(_blocks(pictures)))]
-
-
-def _blocks(pictures: Rendered) -> Iterator[Block]:
+        return
     if pictures.scene_png is not None:
         description = say("Rendered view of the vehicle at the structure with its readings.")
         yield Picture(pictures.scene_png, caption(pictures.scene_caption), description)
@@ -63,3 +36,11 @@ def caption(text: str) -> Text:
         return recorded(text)
     others = rest.removesuffix(".").split(". ")
     return sentences(recorded(f"{part}.") for part in (first, RENDERED, *others))
+
+
+CHAPTER = Chapter(
+    heading=say("Pictures"),
+    applies=lambda material: material.pictures is not None,
+    blocks=lambda material: picture_blocks(material.pictures),
+    spans_sorties=True,
+)

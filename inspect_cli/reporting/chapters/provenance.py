@@ -5,6 +5,8 @@ from __future__ import annotations
 import hashlib
 
 from inspect_cli.log.reader import RunLog
+from inspect_cli.reporting.chapters.chapter import Chapter
+from inspect_cli.reporting.chapters.material import Material
 from inspect_cli.reporting.content.blocks import (
     Block,
     Column,
@@ -28,8 +30,16 @@ from inspect_cli.schema.plan import Plan
 from inspect_cli.schema.result import Result
 
 
-def provenance(log: RunLog, result: Result, plan: Plan) -> list[Block]:
+def _blocks(material: Material) -> list[Block]:
     """Everything that is needed to compute the page again; it holds no time of day."""
+    facts = _provenance(material.log, material.result, material.plan)
+    if material.coverage is None:
+        return facts
+    note = say("Attachments and versions are those of the first sortie; all fly with the same.")
+    return [Paragraph(note), *facts]
+
+
+def _provenance(log: RunLog, result: Result, plan: Plan) -> list[Block]:
     platform = log.platform()
     mission = log.mission()
     facts = Facts(
@@ -84,3 +94,12 @@ def _chosen(log: RunLog) -> list[Block]:
     rows = [[name, reason] for name, reason in sorted(chosen.items())]
     caption = say("Numbers of the platform that no source gives, and why they were chosen.")
     return [Table(caption, [Column(say("Number")), Column(say("Reason"), prose=True)], rows)]
+
+
+CHAPTER = Chapter(
+    heading=say("Provenance"),
+    applies=lambda material: True,
+    blocks=_blocks,
+    spans_sorties=True,
+    appendix=True,
+)

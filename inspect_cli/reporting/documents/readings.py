@@ -17,10 +17,12 @@ from inspect_cli.reporting.content.blocks import (
     Section,
     Table,
 )
-from inspect_cli.reporting.documents.summary import SIGNED, finding, findings, reading_boxes
+from inspect_cli.reporting.documents.cover import SIGNED
+from inspect_cli.reporting.documents.summary import finding
 from inspect_cli.reporting.half_cell.evaluation import evaluation_blocks
 from inspect_cli.reporting.half_cell.findings_text import few_readings, reading_caveats
 from inspect_cli.reporting.half_cell.points import ReadPoint
+from inspect_cli.reporting.half_cell.readings_text import findings, reading_boxes
 from inspect_cli.reporting.half_cell.surface_findings import Evaluated
 from inspect_cli.reporting.words.recorded import recorded
 from inspect_cli.reporting.words.text import Text, code, number, say, together

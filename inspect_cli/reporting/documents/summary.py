@@ -1,37 +1,19 @@
-"""What a reader must know who reads nothing else: finding, key figures, caveats."""
+"""The summary of a report: warnings, finding, key figures, checks and caveats."""
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterable, Sequence
 
 from inspect_cli.log.reader import RunLog
-from inspect_cli.reporting.content.blocks import Block, Box, Boxes, Facts, Notes, Paragraph
-from inspect_cli.reporting.flight.mission_profile import Works, boxes
-from inspect_cli.reporting.half_cell.findings_text import (
-    areas_told,
-    few_readings,
-    reading_caveats,
-    told_of,
-)
-from inspect_cli.reporting.half_cell.points import ReadPoint
-from inspect_cli.reporting.half_cell.surface_findings import Evaluated
-from inspect_cli.reporting.words.naming import named
+from inspect_cli.reporting.chapters.chapter import Chapter
+from inspect_cli.reporting.chapters.coverage import extent
+from inspect_cli.reporting.chapters.material import Material
+from inspect_cli.reporting.content.blocks import Block, Box, Boxes, Heading, Notes, Paragraph
+from inspect_cli.reporting.documents.checks_table import checks_table
 from inspect_cli.reporting.words.published import SOURCE, published_of
 from inspect_cli.reporting.words.recorded import recorded
-from inspect_cli.reporting.words.text import (
-    NOTHING,
-    Listed,
-    Text,
-    count,
-    number,
-    say,
-    sentences,
-    significant,
-    strong,
-    together,
-)
-from inspect_cli.schema.plan import Plan
-from inspect_cli.schema.result import PointResult, Result, Status
+from inspect_cli.reporting.words.text import Text, number, say, sentences, significant, strong
+from inspect_cli.schema.result import Result, Status
 
 STATUS_WORDS: dict[Status, Text] = {
     "completed": say("The flight was completed."),
@@ -42,6 +24,25 @@ STATUS_WORDS: dict[Status, Text] = {
 
 AT_REST_MPS = 0.2
 """Above this a vehicle that should have landed is still moving."""
+
+
+def summary(material: Material, chapters: Iterable[Chapter]) -> list[Block]:
+    """What a reader must know who reads nothing else, from the chapters that apply."""
+    result, written = material.result, tuple(chapters)
+    checks = (
+        checks_table(result.checks)
+        if result.checks
+        else Paragraph(say("The mission states no acceptance."))
+    )
+    return [
+        *([Paragraph(extent(material.coverage.plan))] if material.coverage else []),
+        *warnings(result, material.log.mission().expect_status),
+        *finding([text for chapter in written for text in chapter.sentences(material)]),
+        _key_figures(material, written),
+        checks,
+        Heading(say("What this report does not say")),
+        _caveats(material, written),
+    ]
 
 
 def warnings(result: Result, expected: Status) -> list[Block]:
@@ -79,160 +80,19 @@ def finding(told: Sequence[Text]) -> list[Block]:
     return [Paragraph(sentences([strong(first), *rest]), "finding")]
 
 
-def findings(points: Sequence[ReadPoint], evaluated: Sequence[Evaluated] = ()) -> list[Text]:
-    """The finding of the readings in sentences: how much is valid, what corrodes, and how much."""
-    if not points:
-        return []
-    return [
-        _validity(points),
-        *areas_told(evaluated),
-        *_corrosion(points),
-        *told_of(evaluated),
-    ]
-
-
-def _validity(points: Sequence[ReadPoint]) -> Text:
-    if len(points) == 1:
-        valid = points[0].point.valid
-        return say("The one reading is valid.") if valid else say("The one reading is invalid.")
-    return count(
-        sum(p.point.valid for p in points),
-        "{n} of {total} readings is valid.",
-        "{n} of {total} readings are valid.",
-        total=number(len(points), 0),
-    )
-
-
-def _corrosion(points: Sequence[ReadPoint]) -> list[Text]:
-    read = [p.point for p in points if p.point.potential_mv is not None]
-    if not read:
-        return [say("Without a valid reading nothing can be said about corrosion.")]
-    if not _has_resistivity(points):
-        by_potential = [point.label for point in read if point.astm_class == "active"]
-        undecided = [point.label for point in read if point.astm_class == "uncertain"]
-        return [*_by_potential(by_potential, undecided), _worst(read)]
-    active = [point.label for point in read if point.corrosion == "active"]
-    slow = [p.label for p in read if p.corrosion != "active" and p.astm_class == "active"]
-    possible = [p.label for p in read if p.corrosion == "possible" and p.astm_class != "active"]
-    return [
-        *_active(active),
-        *_slow(slow),
-        *_possible(possible, known=bool(active or slow)),
-        *([] if active or slow or possible else [say("No valid reading indicates corrosion.")]),
-        _worst(read),
-    ]
-
-
-def _has_resistivity(points: Sequence[ReadPoint]) -> bool:
-    """Without any there is no verdict but that of the potentials."""
-    return any(p.point.resistivity_ohm_m is not None for p in points)
-
-
-def _worst(read: Sequence[PointResult]) -> Text:
-    worst = min(read, key=lambda point: point.potential_mv or 0.0)
-    return say(
-        "The most negative potential is {potential} mV CSE at point {label}.",
-        potential=number(worst.potential_mv, 0),
-        label=worst.label,
-    )
-
-
-def _by_potential(active: Sequence[str], undecided: Sequence[str]) -> Iterator[Text]:
-    """What potentials alone say; resistivities were not measured."""
-    if active:
-        yield count(
-            len(active),
-            "By its potential (ASTM C876) point {labels} is active.",
-            "By their potential (ASTM C876) points {labels} are active.",
-            labels=named(active),
-        )
-    if undecided:
-        yield count(
-            len(undecided),
-            "The potential at point {labels} does not decide.",
-            "The potentials at points {labels} do not decide.",
-            labels=named(undecided),
-        )
-    if not active and not undecided:
-        yield say("By their potentials all points are passive (ASTM C876).")
-    yield say("No resistivity was measured: how fast steel may corrode is not known.")
-
-
-def _active(labels: Sequence[str]) -> Iterator[Text]:
-    if labels:
-        yield count(
-            len(labels),
-            "Active corrosion is indicated at point {labels}.",
-            "Active corrosion is indicated at points {labels}.",
-            labels=named(labels),
-        )
-
-
-def _slow(labels: Sequence[str]) -> Iterator[Text]:
-    if labels:
-        yield count(
-            len(labels),
-            "By potential alone (ASTM C876) point {labels} is active; the combined rule calls it "
-            "possible.",
-            "By potential alone (ASTM C876) points {labels} are active; the combined rule calls "
-            "them possible.",
-            labels=named(labels),
-        )
-
-
-def _possible(labels: Sequence[str], *, known: bool) -> Iterator[Text]:
-    if not labels:
-        return
-    where = named(labels)
-    if known:
-        yield count(
-            len(labels),
-            "Corrosion is possible at point {labels}.",
-            "Corrosion is possible at points {labels}.",
-            labels=where,
-        )
-    else:
-        yield count(
-            len(labels),
-            "No reading indicates active corrosion; it cannot be ruled out at point {labels}.",
-            "No reading indicates active corrosion; it cannot be ruled out at points {labels}.",
-            labels=where,
-        )
-
-
-def key_figures(result: Result, works: Works, points: Sequence[ReadPoint]) -> Boxes:
+def _key_figures(material: Material, chapters: Sequence[Chapter]) -> Boxes:
     """The numbers that stand in the boxes under the finding."""
+    result = material.result
     passed = sum(check.verdict == "pass" for check in result.checks)
     checks = [Box(say("acceptance checks passed"), f"{passed} / {len(result.checks)}")]
     duration = number(result.value("flight.duration_s"), 0)
     return Boxes(
         [
-            *(reading_boxes(points) if points else ()),
-            *boxes(works, result),
-            *(checks if result.checks or points else ()),
+            *(box for chapter in chapters for box in chapter.boxes(material)),
+            *(checks if result.checks or material.points else ()),
             Box(say("flight time"), duration, "s"),
         ]
     )
-
-
-def reading_boxes(points: Sequence[ReadPoint]) -> list[Box]:
-    """The key figures of readings."""
-    read = [p.point for p in points if p.point.potential_mv is not None]
-    potentials = [point.potential_mv for point in read if point.potential_mv is not None]
-    valid = sum(p.point.valid for p in points)
-    by_both = say("active by potential and resistivity")
-    by_potential = sum(p.astm_class == "active" for p in read)
-    active = sum(p.corrosion == "active" for p in read)
-    return [
-        Box(say("valid readings"), together(number(valid, 0), " / ", number(len(points), 0))),
-        Box(say("active by potential (ASTM C876)"), number(by_potential, 0)),
-        *([Box(by_both, number(active, 0))] if _has_resistivity(points) else []),
-        Box(say("most negative"), number(min(potentials, default=None), 0), "mV CSE"),
-    ]
-
-
-SIGNED = (say("Place and date"), say("Name and signature of who answers for the evaluation"))
-"""What a report of a real structure is handed over with."""
 
 
 def is_simulated(log: RunLog) -> bool:
@@ -260,67 +120,12 @@ PUBLISHED_ELSEWHERE = say(
 WITHOUT_TRUTH = say("Without the truth, errors are against what the vehicle itself believed.")
 
 
-def caveats(
-    log: RunLog,
-    result: Result,
-    points: Sequence[ReadPoint],
-    evaluated: Sequence[Evaluated] = (),
-) -> Notes:
+def _caveats(material: Material, chapters: Sequence[Chapter]) -> Notes:
     """What the numbers do not say."""
-    read = sum(p.point.potential_mv is not None for p in points)
     notes: list[Text] = []
-    if is_simulated(log):
-        notes += [SIMULATED_READINGS] if points else [SIMULATED, TRUTH_IS_SEEN]
-    if points:
-        notes += [*reading_caveats(evaluated), *few_readings(read)]
-    if any(published_of(check.ref) for check in result.checks):
+    if is_simulated(material.log):
+        notes += [SIMULATED_READINGS] if material.points else [SIMULATED, TRUTH_IS_SEEN]
+    notes += [text for chapter in chapters for text in chapter.caveats(material)]
+    if any(published_of(check.ref) for check in material.result.checks):
         notes.append(PUBLISHED_ELSEWHERE)
     return Notes(notes or [WITHOUT_TRUTH], "caveats")
-
-
-def method(log: RunLog, plan: Plan) -> Facts:
-    """How the readings were taken, in the order of an inspection report."""
-    probe = log.platform().sensors.half_cell
-    pressed = [target for target in plan.targets if target.kind == "contact"]
-    force = number(max((t.expected_force_n for t in pressed), default=None), 2)
-    counts = say(
-        "the load cell shows ≥ {force} N for ≥ {time} s and the potential stays within {band} mV "
-        "over {stable} s",
-        force=significant(probe.min_force_n, 6),
-        time=significant(probe.min_contact_s, 6),
-        band=significant(1e3 * probe.stable_v, 6),
-        stable=significant(probe.stable_s, 6),
-    )
-    return Facts(
-        [
-            (
-                say("Method"),
-                say("half-cell potential (ASTM C876) and resistance at each point of contact"),
-            ),
-            (say("Reference electrode"), say("copper/copper sulphate (CSE)")),
-            (say("A reading counts when"), counts),
-            (
-                say("Cell constant"),
-                say(
-                    "{constant} m (resistivity = resistance × constant)",
-                    constant=significant(probe.cell_constant_m, 6),
-                ),
-            ),
-            (say("Set-point behind the surface"), _each([t.press_m for t in pressed], "m")),
-            (say("Dwell"), _each([t.dwell_s for t in pressed], "s")),
-            (say("Expected contact force"), together(force, " N") if pressed else NOTHING),
-            (
-                say("Cable"),
-                say(
-                    "{length} m; the farthest point needs {needed} m",
-                    length=significant(probe.cable_m, 6),
-                    needed=number(plan.cable_m, 2),
-                ),
-            ),
-        ]
-    )
-
-
-def _each(values: Iterable[float], unit: str) -> Text:
-    different = tuple(significant(value, 6) for value in sorted(set(values)))
-    return together(Listed(different), f" {unit}") if different else NOTHING
