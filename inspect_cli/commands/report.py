@@ -23,7 +23,7 @@ from inspect_cli.commands.runs import METRICS_NAME, log_of, write_model, write_r
 from inspect_cli.commands.survey_report import report_survey, survey_of
 from inspect_cli.log.reader import read_log
 from inspect_cli.metrics.evaluate import evaluate
-from inspect_cli.pictures.take import Pictures
+from inspect_cli.pictures.render import Pictures
 from inspect_cli.reporting.documents.flight import report_document
 from inspect_cli.schema.coverage import CoveragePlan
 from inspect_cli.schema.result import Result

@@ -31,7 +31,7 @@ from inspect_cli.log.reader import RunLog, read_log
 from inspect_cli.metrics.assessed import assessor
 from inspect_cli.metrics.evaluate import evaluate
 from inspect_cli.metrics.survey import joined_result, scorer
-from inspect_cli.pictures.take import Pictures
+from inspect_cli.pictures.render import Pictures
 from inspect_cli.reporting.documents.flight import report_document, survey_document
 from inspect_cli.schema.coverage import CoveragePlan, Sortie
 from inspect_cli.schema.result import Result

@@ -10,11 +10,11 @@ import numpy as np
 
 from inspect_cli.log.layout import Bytes
 from inspect_cli.log.reader import RunLog
-from inspect_cli.pictures.marks import Mark, MarkStyle, marks_of
-from inspect_cli.pictures.motion import Motion, motion_of, telling_moment
 from inspect_cli.pictures.script import FILM_PX, FPS, SCENE_PX, LegendEntry, Script, Shot
-from inspect_cli.pictures.stage import FIELD_OF_VIEW_DEG, SEGMENTS, build_stage
-from inspect_cli.pictures.views import View, best_view, boxed, facing, framed, in_frame, near
+from inspect_cli.scene.marks import Mark, MarkStyle, marks_of
+from inspect_cli.scene.motion import Motion, motion_of, telling_moment
+from inspect_cli.scene.scene_model import FIELD_OF_VIEW_DEG, SEGMENTS, build_scene
+from inspect_cli.scene.views import View, best_view, boxed, facing, framed, in_frame, near
 from inspect_cli.schema.plan import Plan
 from inspect_cli.schema.primitives import primitive_of
 from inspect_cli.schema.result import Result
@@ -68,7 +68,7 @@ def direct(log: RunLog, result: Result, styles: Mapping[str, MarkStyle]) -> Dire
         FILM_PX[0] / FILM_PX[1],
     )
     center, extent = shown.mean(axis=0), float(np.ptp(shown, axis=0).max())
-    model = build_stage(
+    model = build_scene(
         vehicle, plan.surfaces, marks, _sun(plan, view), _overhead(plan), center, extent
     )
     legend = _legend(marks, styles)

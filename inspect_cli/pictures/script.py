@@ -14,7 +14,7 @@ import numpy as np
 
 from inspect_cli.log.layout import Bytes
 from inspect_cli.pictures.names import SCRIPT_NAME
-from inspect_cli.pictures.views import View
+from inspect_cli.scene.views import View
 from inspect_cli.spatial.arrays import Indices, Mask, Points
 
 SCENE_PX, FILM_PX = (1280, 720), (848, 480)

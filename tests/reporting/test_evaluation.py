@@ -10,7 +10,7 @@ from report_pages import Page, decoded, trace
 from surveyed_points import points_of, surveyed
 
 from inspect_cli.assessment.electrodes import basis_of
-from inspect_cli.pictures.take import Pictures
+from inspect_cli.pictures.render import Pictures
 from inspect_cli.reporting.chapters.pictures import caption, picture_blocks
 from inspect_cli.reporting.content.blocks import (
     Block,

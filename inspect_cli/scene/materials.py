@@ -36,7 +36,7 @@ CONCRETE_SEED = 1
 """The grain is a drawing, not a measurement: always the same."""
 
 
-def add_looks(spec: mujoco.MjSpec) -> None:
+def add_materials(spec: mujoco.MjSpec) -> None:
     """Sky, concrete and floor: textures and materials by the names 'concrete' and 'floor'."""
     spec.add_texture(
         name="sky",

@@ -10,7 +10,7 @@ from __future__ import annotations
 import mujoco
 import numpy as np
 
-from inspect_cli.pictures.looks import BLADE, BOOM, FRONT, HULL, INVISIBLE, ROTOR, TOOL
+from inspect_cli.scene.materials import BLADE, BOOM, FRONT, HULL, INVISIBLE, ROTOR, TOOL
 from inspect_cli.spatial.arrays import Matrix, Vector
 from inspect_cli.vehicles.kinds import Vehicle
 
@@ -21,7 +21,7 @@ AHEAD = 0.8
 """Cosine of the angle to the tool within which a boom counts as one of the tool's side."""
 
 
-def dressed(vehicle: Vehicle) -> mujoco.MjSpec:
+def visual_model(vehicle: Vehicle) -> mujoco.MjSpec:
     """The vehicle's specification with visible parts; nothing of it can touch anything."""
     spec = vehicle.nominal_spec()
     _paint(spec)

@@ -22,10 +22,10 @@ from inspect_cli.schema.result import Result
 
 if TYPE_CHECKING:
     from inspect_cli.pictures.direction import Direction
-    from inspect_cli.pictures.marks import MarkStyle
+    from inspect_cli.scene.marks import MarkStyle
 
 TIME_LIMIT_S = 90.0
-DARKROOM = "inspect_cli.pictures.darkroom"
+RENDER_PROCESS = "inspect_cli.pictures.render_process"
 UNLOADABLE = (ImportError, AttributeError, OSError, RuntimeError)
 """What importing MuJoCo raises, depending on what MUJOCO_GL asks for in vain."""
 SEE_DOCTOR = "'inspect doctor' says what is missing"
@@ -45,7 +45,7 @@ class Pictures:
     """Why the scene or the film is missing, in one sentence; empty when there are both."""
 
 
-def take_pictures(
+def render_pictures(
     log: RunLog,
     result: Result,
     styles: Mapping[str, MarkStyle],
@@ -98,7 +98,7 @@ def _rendered(folder: Path, time_limit_s: float) -> str | None:
     environment = dict(os.environ)
     if sys.platform == "linux":
         environment.setdefault("MUJOCO_GL", "egl")
-    command = [sys.executable, "-m", DARKROOM, str(folder)]
+    command = [sys.executable, "-m", RENDER_PROCESS, str(folder)]
     try:
         done = subprocess.run(
             command,

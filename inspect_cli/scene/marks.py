@@ -9,9 +9,9 @@ from typing import Protocol
 import numpy as np
 
 from inspect_cli.log.reader import RunLog
-from inspect_cli.pictures.looks import PLANNED, TRACE, Rgba
-from inspect_cli.pictures.motion import Motion
 from inspect_cli.records import Mode, Reading, Reference
+from inspect_cli.scene.materials import PLANNED, TRACE, Rgba
+from inspect_cli.scene.motion import Motion
 from inspect_cli.schema.plan import Plan, Target
 from inspect_cli.schema.primitives import primitive_of
 from inspect_cli.schema.result import PointResult, Result

@@ -1,6 +1,6 @@
 """Renders a script; a process of its own, which may crash or be stopped.
 
-    python -m inspect_cli.pictures.darkroom FOLDER
+    python -m inspect_cli.pictures.render_process FOLDER
 
 reads ``script.npz`` there and writes ``scene.png``, then ``film.mp4``.
 """

@@ -7,9 +7,9 @@ from collections.abc import Sequence
 import mujoco
 import numpy as np
 
-from inspect_cli.pictures.dressing import dressed
-from inspect_cli.pictures.looks import CONCRETE, CONCRETE_TILE_M, DIMMED, HORIZON, add_looks
-from inspect_cli.pictures.marks import Mark
+from inspect_cli.scene.marks import Mark
+from inspect_cli.scene.materials import CONCRETE, CONCRETE_TILE_M, DIMMED, HORIZON, add_materials
+from inspect_cli.scene.visual_model import visual_model
 from inspect_cli.schema.plan import PlannedSurface
 from inspect_cli.schema.primitives import primitive_of
 from inspect_cli.spatial.arrays import Indices, Matrix, Points, Structured, Vector
@@ -28,7 +28,7 @@ SHADOW_REACH = 1.7
 """Of the scene's size; beyond it nothing throws a shadow."""
 
 
-def build_stage(
+def build_scene(
     vehicle: Vehicle,
     surfaces: Sequence[PlannedSurface],
     marks: Sequence[Mark],
@@ -48,8 +48,8 @@ def build_stage(
         center_W: middle (3,) of what is shown, W, m.
         extent_m: its size.
     """
-    spec = dressed(vehicle)
-    add_looks(spec)
+    spec = visual_model(vehicle)
+    add_materials(spec)
     _set_view(spec, center_W, extent_m)
     _add_lights(spec, light_from, overhead, center_W, extent_m)
     spec.worldbody.add_geom(
