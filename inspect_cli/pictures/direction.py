@@ -10,9 +10,10 @@ import numpy as np
 
 from inspect_cli.log.layout import Bytes
 from inspect_cli.log.reader import RunLog
+from inspect_cli.pictures.moments import still_moment
 from inspect_cli.pictures.script import FILM_PX, FPS, SCENE_PX, LegendEntry, Script, Shot
 from inspect_cli.scene.marks import Mark, MarkStyle, marks_of
-from inspect_cli.scene.motion import Motion, motion_of, telling_moment
+from inspect_cli.scene.motion import Motion, motion_of
 from inspect_cli.scene.scene_model import FIELD_OF_VIEW_DEG, SEGMENTS, build_scene
 from inspect_cli.scene.views import View, best_view, boxed, facing, framed, in_frame, near
 from inspect_cli.schema.plan import Plan
@@ -56,7 +57,7 @@ def direct(log: RunLog, result: Result, styles: Mapping[str, MarkStyle]) -> Dire
         return None
     marks = marks_of(log, plan, result, motion, styles)
     span_m = _span(nominal, vehicle.actuators.rotor_radius_m)
-    still_s, touching = telling_moment(log, motion)
+    still_s, touching = still_moment(log, motion)
     film_s, speed = _film_times(motion)
     shown = _shown(plan, motion, span_m)
     view = best_view(
