@@ -17,8 +17,9 @@ from visible_words import Pseudo, foreign, left_over, shown, visible
 
 from inspect_cli import cli
 from inspect_cli.commands.delivery import Wanted, deliver
-from inspect_cli.commands.evaluating import evaluated_points
 from inspect_cli.commands.study import STUDIES
+from inspect_cli.commands.surface_maps import with_maps
+from inspect_cli.metrics.evaluate import evaluate_with_arrays
 from inspect_cli.metrics.flight import Flight as Logged
 from inspect_cli.metrics.points import point_results
 from inspect_cli.metrics.truth_scoring import NO_TRUTH
@@ -185,7 +186,7 @@ def test_the_pseudo_language_finds_what_is_left() -> None:
 def test_german_has_its_own_signs(fly: Fly, report: Report, tmp_path: Path) -> None:
     flight = fly(acceptance=ACCEPTANCE)
     log, english = flight.log(), report(flight)
-    evaluated = evaluated_points(english.result.points, log)
+    evaluated = with_maps(evaluate_with_arrays(log).assessed)
     document = report_document(log, english.result, log.plan(), evaluated)
     path = deliver(tmp_path, document, Wanted("de"))
     page = Page(path.read_text(encoding="utf-8"))

@@ -13,8 +13,8 @@ import numpy as np
 import pytest
 from example_flights import spoil, survey
 
-from inspect_cli.commands.evaluating import evaluated_points
-from inspect_cli.metrics.evaluate import evaluate
+from inspect_cli.commands.surface_maps import with_maps
+from inspect_cli.metrics.evaluate import evaluate_with_arrays
 from inspect_cli.records import InvalidReason, Reference
 from inspect_cli.reporting.figures.figure import Figure, numbers, words
 from inspect_cli.reporting.figures.rows import rows_of
@@ -48,9 +48,10 @@ def figures() -> dict[str, Figure]:
     flight = survey(PLATFORM, 3, 5)
     spoil(flight, 7, InvalidReason.FORCE)
     log = flight.log()
-    result = evaluate(log)
+    evaluation = evaluate_with_arrays(log)
+    result = evaluation.result
     points = read_points(result, flight.plan)
-    (evaluated,) = evaluated_points(result.points, log)
+    (evaluated,) = with_maps(evaluation.assessed)
     timeline = timeline_of(rows_of(log, Reference), flight.plan)
     found = [
         map_figure(0, evaluated, shared_range([evaluated]), {}),

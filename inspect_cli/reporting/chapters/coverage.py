@@ -14,7 +14,7 @@ from inspect_cli.schema.plan import Plan
 
 def _coverage(survey: CoveragePlan, plan: Plan) -> list[Block]:
     added = [t.label for s in survey.sorties if s.added for t in s.plan.targets]
-    told: list[Text] = [
+    statements: list[Text] = [
         extent(survey),
         say(
             "The shortest way that was found through the standoffs of all points is {length} m, "
@@ -23,7 +23,7 @@ def _coverage(survey: CoveragePlan, plan: Plan) -> list[Block]:
         ),
     ]
     if added:
-        told.append(
+        statements.append(
             count(
                 len(added),
                 "{labels} was added by the refinement rule of ASTM C876, between neighbours whose "
@@ -34,7 +34,7 @@ def _coverage(survey: CoveragePlan, plan: Plan) -> list[Block]:
             )
         )
     return [
-        Paragraph(sentences(told)),
+        Paragraph(sentences(statements)),
         *drawn(tour_figures(survey, plan)),
         *_skipped_table(survey.skipped),
     ]

@@ -13,7 +13,7 @@ from inspect_cli.reporting.figures.rows import rows_of
 from inspect_cli.reporting.figures.timeline import Timeline, timeline_of
 from inspect_cli.reporting.flight.mission_profile import MissionProfile, mission_profile
 from inspect_cli.reporting.half_cell.points import ReadPoint, read_points
-from inspect_cli.reporting.half_cell.surface_findings import Evaluated
+from inspect_cli.reporting.half_cell.surface_findings import SurfaceFindings
 from inspect_cli.schema.coverage import CoveragePlan
 from inspect_cli.schema.plan import Plan
 from inspect_cli.schema.result import Result
@@ -61,7 +61,7 @@ class Material:
     log: RunLog
     result: Result
     plan: Plan
-    surfaces: Sequence[Evaluated] = ()
+    surfaces: Sequence[SurfaceFindings] = ()
     """The readings of each surface: findings and map."""
     pictures: Rendered | None = None
     coverage: Coverage | None = None

@@ -12,7 +12,7 @@ from inspect_cli.reporting.chapters.registry import chapters
 from inspect_cli.reporting.content.blocks import Document, Section
 from inspect_cli.reporting.documents.cover import cover
 from inspect_cli.reporting.documents.summary import summary
-from inspect_cli.reporting.half_cell.surface_findings import Evaluated
+from inspect_cli.reporting.half_cell.surface_findings import SurfaceFindings
 from inspect_cli.reporting.words.text import say
 from inspect_cli.schema.coverage import CoveragePlan
 from inspect_cli.schema.plan import Plan
@@ -23,7 +23,7 @@ def report_document(
     log: RunLog,
     result: Result,
     plan: Plan,
-    surfaces: Sequence[Evaluated] = (),
+    surfaces: Sequence[SurfaceFindings] = (),
     pictures: Rendered | None = None,
 ) -> Document:
     """What the report of a flight says, in no language yet.
@@ -40,7 +40,7 @@ def survey_document(
     flown: Sequence[Result],
     survey: CoveragePlan,
     plan: Plan,
-    surfaces: Sequence[Evaluated] = (),
+    surfaces: Sequence[SurfaceFindings] = (),
     pictures: Rendered | None = None,
 ) -> Document:
     """What the report of a survey says, in no language yet.

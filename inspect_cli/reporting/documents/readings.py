@@ -23,7 +23,7 @@ from inspect_cli.reporting.half_cell.evaluation import evaluation_blocks
 from inspect_cli.reporting.half_cell.findings_text import few_readings, reading_caveats
 from inspect_cli.reporting.half_cell.points import ReadPoint
 from inspect_cli.reporting.half_cell.readings_text import findings, reading_boxes
-from inspect_cli.reporting.half_cell.surface_findings import Evaluated
+from inspect_cli.reporting.half_cell.surface_findings import SurfaceFindings
 from inspect_cli.reporting.words.recorded import recorded
 from inspect_cli.reporting.words.text import Text, code, number, say, together
 from inspect_cli.schema.readings import ReadingsResult
@@ -46,7 +46,7 @@ SPACING_ASSUMED = say(
 
 
 def readings_document(
-    result: ReadingsResult, points: Sequence[PointResult], evaluated: Evaluated
+    result: ReadingsResult, points: Sequence[PointResult], evaluated: SurfaceFindings
 ) -> Document:
     """What the report of a file of readings says, in no language yet."""
     shown = [ReadPoint(point, None) for point in points]
@@ -61,7 +61,7 @@ def readings_document(
 
 
 def _summary(
-    result: ReadingsResult, points: Sequence[ReadPoint], evaluated: Evaluated
+    result: ReadingsResult, points: Sequence[ReadPoint], evaluated: SurfaceFindings
 ) -> list[Block]:
     read = evaluated.assessed.summary.valid
     caveats = [*reading_caveats([evaluated], probed=False), *few_readings(read)]
@@ -116,9 +116,9 @@ def _method(result: ReadingsResult) -> list[Block]:
     ]
     blocks: list[Block] = [Facts(facts)]
     if result.assumed:
-        told = [ASSUMED.get(name, code(name)) for name in result.assumed]
+        statements = [ASSUMED.get(name, code(name)) for name in result.assumed]
         blocks.append(Paragraph(say("Nobody stated, and this report assumes:"), "note"))
-        blocks.append(Notes(told))
+        blocks.append(Notes(statements))
     return blocks
 
 
@@ -132,8 +132,8 @@ def _spacing(settings: SurveySettings) -> list[tuple[Text, Text]]:
     if settings.layout == "list":
         return []
     between_columns, between_rows = (number(spacing, 3) for spacing in settings.spacing_m)
-    told = say("{u} m between columns, {v} m between rows", u=between_columns, v=between_rows)
-    return [(say("Spacing of a grid"), told)]
+    spacing = say("{u} m between columns, {v} m between rows", u=between_columns, v=between_rows)
+    return [(say("Spacing of a grid"), spacing)]
 
 
 def _provenance(result: ReadingsResult) -> list[Block]:

@@ -72,11 +72,11 @@ def _expectation(status: Status, expected: Status) -> Text:
     return say("The mission expects it to be {status}, which it was not.", status=wanted)
 
 
-def finding(told: Sequence[Text]) -> list[Block]:
+def finding(statements: Sequence[Text]) -> list[Block]:
     """The finding as one paragraph, its first sentence standing out."""
-    if not told:
+    if not statements:
         return []
-    first, *rest = told
+    first, *rest = statements
     return [Paragraph(sentences([strong(first), *rest]), "finding")]
 
 

@@ -265,7 +265,7 @@ def _over_time(flight: Flight, drawing: int, trials: Sequence[Trial]) -> Iterato
     ]
     felt = flight.log.rows(Estimate)
     wrench = None if felt is None else flight.on_state_ticks(Estimate)["wrench_B"]
-    for name, above, first, symbol, unit, (told, description) in (
+    for name, above, first, symbol, unit, (what, description) in (
         ("position", position, 0, "F", "N", POSITION),
         ("attitude", alike(attitude, window), 3, "τ", "N·m", ATTITUDE),
     ):
@@ -281,7 +281,7 @@ def _over_time(flight: Flight, drawing: int, trials: Sequence[Trial]) -> Iterato
         ]
         yield stacked(
             f"drawing-{drawing + 1}-{name}",
-            sentences([told, SHADED]),
+            sentences([what, SHADED]),
             description,
             [*above, *alike(below, window)],
             timeline,

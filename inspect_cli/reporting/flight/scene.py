@@ -140,8 +140,8 @@ def _readings(points: Sequence[ReadPoint]) -> list[Json]:
             "color": colours(potentials_of(valid), potential_range(potentials_of(valid))),
             "line": {"width": 1, "color": INK},
         }
-        told = [hover_text(p) for p in valid]
-        traces.append(_markers(say("valid readings"), valid, marker, told))
+        hover = [hover_text(p) for p in valid]
+        traces.append(_markers(say("valid readings"), valid, marker, hover))
         traces.append(colour_bar("scatter3d"))
     if invalid:
         marker = {"size": 5, "symbol": "x", "color": INK}

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 
 from inspect_cli.assessment.findings import disagreement
 from inspect_cli.reporting.content.blocks import Block, Column, Facts, Paragraph, Table
-from inspect_cli.reporting.half_cell.surface_findings import Evaluated
+from inspect_cli.reporting.half_cell.surface_findings import SurfaceFindings
 from inspect_cli.reporting.words.recorded import recorded
 from inspect_cli.reporting.words.text import (
     NOTHING,
@@ -58,7 +58,7 @@ def basis_facts(summary: SurfaceAssessment) -> Facts:
     )
 
 
-def temperature_caveats(evaluated: Sequence[Evaluated]) -> list[Text]:
+def temperature_caveats(evaluated: Sequence[SurfaceFindings]) -> list[Text]:
     """What potentials are against and what was done about temperature, once for each basis."""
     bases: list[Basis] = []
     for e in evaluated:
@@ -69,9 +69,9 @@ def temperature_caveats(evaluated: Sequence[Evaluated]) -> list[Text]:
 
 
 def _caveat(basis: Basis) -> Text:
-    told: list[Text] = []
+    statements: list[Text] = []
     if basis.conversion_mv != 0.0:
-        told.append(
+        statements.append(
             say(
                 "Potentials were read against {electrode} and are given against copper/copper "
                 "sulphate (CSE): {mv} mV were added.",
@@ -80,9 +80,9 @@ def _caveat(basis: Basis) -> Text:
             )
         )
     else:
-        told.append(say("Potentials are against copper/copper sulphate (CSE)."))
+        statements.append(say("Potentials are against copper/copper sulphate (CSE)."))
     if basis.own_temperatures_c and basis.own_corrections_mv:
-        told.append(
+        statements.append(
             say(
                 "Each was corrected by its own temperature ({temperatures}), which added "
                 "{corrections}; readings whose temperature is not known: {n}, not corrected.",
@@ -92,7 +92,7 @@ def _caveat(basis: Basis) -> Text:
             )
         )
     elif basis.temperature_correction_mv != 0.0:
-        told.append(
+        statements.append(
             say(
                 "They were corrected by {mv} mV from {celsius} °C to 22.2 °C (ASTM C876).",
                 mv=number(basis.temperature_correction_mv, 1),
@@ -101,8 +101,8 @@ def _caveat(basis: Basis) -> Text:
         )
     else:
         why = recorded(basis.temperature_why)
-        told.append(say("They are not corrected for temperature: {why}.", why=why))
-    return sentences(told)
+        statements.append(say("They are not corrected for temperature: {why}.", why=why))
+    return sentences(statements)
 
 
 def _span(ends: tuple[float, float], unit: str, digits: int) -> Text:
@@ -129,8 +129,8 @@ def uncertainty_blocks(summary: SurfaceAssessment) -> list[Block]:
         "Standard uncertainty of a point's potential, medians over the valid points; independent "
         "contributions are added by their squares (GUM)."
     )
-    told = sentences([_repeatability(found, summary.repeatability), _doubtful(found)])
-    return [Table(caption, columns, rows), Paragraph(told)]
+    paragraph = sentences([_repeatability(found, summary.repeatability), _doubtful(found)])
+    return [Table(caption, columns, rows), Paragraph(paragraph)]
 
 
 def _mv(value: float | None) -> Text:

@@ -10,9 +10,9 @@ from inspect_cli.reporting.figures.palette import ASTM_STYLES, INK, MUTED
 from inspect_cli.reporting.half_cell.places import Indices
 from inspect_cli.reporting.half_cell.population_marks import (
     curve_trace,
+    curves_caption,
     threshold_shapes,
     threshold_words,
-    told_of_the_curves,
 )
 from inspect_cli.reporting.half_cell.populations import curves_of
 from inspect_cli.reporting.half_cell.potential_scale import (
@@ -21,7 +21,7 @@ from inspect_cli.reporting.half_cell.potential_scale import (
     class_line,
     potential_range,
 )
-from inspect_cli.reporting.half_cell.surface_findings import Evaluated
+from inspect_cli.reporting.half_cell.surface_findings import SurfaceFindings
 from inspect_cli.reporting.words.text import number, say, sentences
 from inspect_cli.spatial.arrays import Vector
 
@@ -31,7 +31,7 @@ SIZES_PX = ((100, 9), (500, 6), (MOST_DRAWN, 4))
 CURVE_POINTS = 961
 
 
-def cumulative_figure(k: int, evaluated: Evaluated) -> Figure | None:
+def cumulative_figure(k: int, evaluated: SurfaceFindings) -> Figure | None:
     """Potentials in order of size against their share, on a normal probability scale.
 
     The k-th of n values, counted from the least negative, stands at k / (n + 1), the plotting
@@ -79,7 +79,7 @@ def cumulative_figure(k: int, evaluated: Evaluated) -> Figure | None:
                     "Dashed: the class boundaries of ASTM C876. One straight line is one "
                     "population; a bend tells of passive and active steel side by side."
                 ),
-                told_of_the_curves(mixture),
+                curves_caption(mixture),
                 say(
                     "Of {n} readings {drawn} are drawn, more towards the ends and all at both.",
                     n=number(len(order), 0),
@@ -104,7 +104,7 @@ def _kept(z: Vector) -> Indices:
     return np.unique(np.clip(nearest, 0, len(z) - 1))
 
 
-def _ordered(evaluated: Evaluated, order: Indices, z: Vector, shares: Vector) -> Json:
+def _ordered(evaluated: SurfaceFindings, order: Indices, z: Vector, shares: Vector) -> Json:
     """The readings on the scale, each with the shape and colour of its class."""
     assessed = evaluated.assessed
     mv = millivolts(assessed.readings.potential_v[order])
@@ -138,7 +138,7 @@ def _ordered(evaluated: Evaluated, order: Indices, z: Vector, shares: Vector) ->
     }
 
 
-def _lines(evaluated: Evaluated, ends: tuple[float, float]) -> list[Json]:
+def _lines(evaluated: SurfaceFindings, ends: tuple[float, float]) -> list[Json]:
     """The populations on the probability scale: one normal population is a straight line."""
     from scipy.special import ndtri
 
@@ -153,6 +153,6 @@ def _lines(evaluated: Evaluated, ends: tuple[float, float]) -> list[Json]:
     return traces
 
 
-def _room(evaluated: Evaluated) -> tuple[float, float]:
+def _room(evaluated: SurfaceFindings) -> tuple[float, float]:
     mv = millivolts(evaluated.assessed.readings.potential_v[evaluated.assessed.readings.valid])
     return potential_range((float(mv.min()), float(mv.max())))

@@ -13,7 +13,7 @@ from inspect_cli.reporting.half_cell.map_captions import error_caption
 from inspect_cli.reporting.half_cell.map_frame import MAP_FRAME_PX, TALL, field_trace, frame_of
 from inspect_cli.reporting.half_cell.map_marks import MOST_MARKERS
 from inspect_cli.reporting.half_cell.potential_scale import colour_bar, lying_bar
-from inspect_cli.reporting.half_cell.surface_findings import Evaluated
+from inspect_cli.reporting.half_cell.surface_findings import SurfaceFindings
 from inspect_cli.reporting.words.text import number, say, together
 
 STEPS_MV = tuple(m * 10.0**power for power in (-1, 0, 1, 2) for m in (1, 2, 5))
@@ -21,7 +21,7 @@ MOST_BANDS = 8
 SMALLER = 0.6
 
 
-def error_figure(k: int, evaluated: Evaluated) -> Figure | None:
+def error_figure(k: int, evaluated: SurfaceFindings) -> Figure | None:
     """The standard error on the same grid as the map of surface ``k``; None without a map."""
     kriged = evaluated.map
     if not isinstance(kriged, KrigedMap):

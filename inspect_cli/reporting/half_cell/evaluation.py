@@ -31,13 +31,13 @@ from inspect_cli.reporting.half_cell.statistics import (
     mixture_blocks,
     statistics_blocks,
 )
-from inspect_cli.reporting.half_cell.surface_findings import Evaluated
+from inspect_cli.reporting.half_cell.surface_findings import SurfaceFindings
 from inspect_cli.reporting.words.text import Text, say
 from inspect_cli.schema.scoring import Scoring
 
 
 def evaluation_blocks(
-    evaluated: Sequence[Evaluated], points: Sequence[ReadPoint], scoring: Scoring | None
+    evaluated: Sequence[SurfaceFindings], points: Sequence[ReadPoint], scoring: Scoring | None
 ) -> list[Block]:
     """Everything that was found, drawn and in numbers.
 
@@ -66,7 +66,7 @@ def _reasons(points: Sequence[ReadPoint]) -> Mapping[str, Text]:
 
 
 def _surface(
-    k: int, evaluated: Evaluated, ends: tuple[float, float], reasons: Mapping[str, Text]
+    k: int, evaluated: SurfaceFindings, ends: tuple[float, float], reasons: Mapping[str, Text]
 ) -> list[Block]:
     assessed, summary = evaluated.assessed, evaluated.assessed.summary
     if summary.points == 0:
@@ -96,7 +96,7 @@ def _surface(
 
 
 def _maps(
-    k: int, evaluated: Evaluated, ends: tuple[float, float], reasons: Mapping[str, Text]
+    k: int, evaluated: SurfaceFindings, ends: tuple[float, float], reasons: Mapping[str, Text]
 ) -> list[Block]:
     """The potentials and their standard error; side by side where the surface is tall."""
     found = (map_figure(k, evaluated, ends, reasons), error_figure(k, evaluated))

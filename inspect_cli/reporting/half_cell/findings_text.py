@@ -9,7 +9,7 @@ from inspect_cli.reporting.content.blocks import Facts
 from inspect_cli.reporting.half_cell.basis import temperature_caveats
 from inspect_cli.reporting.half_cell.classes import area, percent
 from inspect_cli.reporting.half_cell.minima import judged
-from inspect_cli.reporting.half_cell.surface_findings import Evaluated
+from inspect_cli.reporting.half_cell.surface_findings import SurfaceFindings
 from inspect_cli.reporting.words.recorded import recorded
 from inspect_cli.reporting.words.text import Text, count, number, say
 from inspect_cli.schema.assessment import MixtureFindings, SurfaceAssessment
@@ -51,23 +51,23 @@ AT_ITS_TIME = say(
 )
 
 
-def areas_told(evaluated: Sequence[Evaluated]) -> list[Text]:
+def area_sentences(evaluated: Sequence[SurfaceFindings]) -> list[Text]:
     """How much of each surface is active."""
     return _by_surface(evaluated, _areas)
 
 
-def told_of(evaluated: Sequence[Evaluated]) -> list[Text]:
+def gradient_and_population_sentences(evaluated: Sequence[SurfaceFindings]) -> list[Text]:
     """What gradients and populations of each surface tell."""
     return _by_surface(evaluated, _gradient_and_populations)
 
 
 def _by_surface(
-    evaluated: Sequence[Evaluated], told: Callable[[SurfaceAssessment], Iterable[Text]]
+    evaluated: Sequence[SurfaceFindings], statements: Callable[[SurfaceAssessment], Iterable[Text]]
 ) -> list[Text]:
     """The sentences of each surface that has a valid reading, under its name if there are more."""
     found: list[Text] = []
     for e in evaluated:
-        own = list(told(e.assessed.summary)) if e.assessed.summary.valid else []
+        own = list(statements(e.assessed.summary)) if e.assessed.summary.valid else []
         if own and len(evaluated) > 1:
             found.append(say("Surface “{surface}”:", surface=e.surface))
         found += own
@@ -139,7 +139,7 @@ def _populations(mixture: MixtureFindings) -> Text:
     )
 
 
-def reading_caveats(evaluated: Sequence[Evaluated], *, probed: bool = True) -> list[Text]:
+def reading_caveats(evaluated: Sequence[SurfaceFindings], *, probed: bool = True) -> list[Text]:
     """What the standard wants to be said beside its numbers.
 
     Args:

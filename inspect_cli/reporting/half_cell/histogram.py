@@ -11,9 +11,9 @@ from inspect_cli.reporting.figures.figure import Figure, Json
 from inspect_cli.reporting.figures.palette import ASTM_STYLES
 from inspect_cli.reporting.half_cell.population_marks import (
     curve_trace,
+    curves_caption,
     threshold_shapes,
     threshold_words,
-    told_of_the_curves,
 )
 from inspect_cli.reporting.half_cell.populations import curves_of
 from inspect_cli.reporting.half_cell.potential_scale import (
@@ -21,7 +21,7 @@ from inspect_cli.reporting.half_cell.potential_scale import (
     PASSIVE_ABOVE_MV,
     class_line,
 )
-from inspect_cli.reporting.half_cell.surface_findings import Evaluated
+from inspect_cli.reporting.half_cell.surface_findings import SurfaceFindings
 from inspect_cli.reporting.words.text import number, say, sentences
 from inspect_cli.spatial.arrays import Vector
 
@@ -31,7 +31,7 @@ MOST_BINS = 40
 CURVE_POINTS = 241
 
 
-def histogram_figure(k: int, evaluated: Evaluated) -> Figure | None:
+def histogram_figure(k: int, evaluated: SurfaceFindings) -> Figure | None:
     """How many readings there are at each potential, and the populations' densities."""
     readings, codes = evaluated.assessed.readings, evaluated.assessed.astm
     valid = codes != NO_CLASS
@@ -78,7 +78,7 @@ def histogram_figure(k: int, evaluated: Evaluated) -> Figure | None:
     caption = say("Histogram of the valid readings. Dashed: the class boundaries of ASTM C876.")
     return Figure(
         f"histogram-{k + 1}",
-        sentences([caption, told_of_the_curves(mixture)]),
+        sentences([caption, curves_caption(mixture)]),
         say("Histogram of {n} potentials.", n=number(len(mv), 0)),
         traces,
         layout,

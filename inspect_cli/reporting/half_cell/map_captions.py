@@ -11,12 +11,12 @@ from inspect_cli.assessment.kriging import NEIGHBOURS, KrigedMap
 from inspect_cli.assessment.variogram import Variogram
 from inspect_cli.reporting.half_cell.isolines import step_of
 from inspect_cli.reporting.half_cell.potential_scale import ACTIVE_BELOW_MV, PASSIVE_ABOVE_MV
-from inspect_cli.reporting.half_cell.surface_findings import Evaluated
+from inspect_cli.reporting.half_cell.surface_findings import SurfaceFindings
 from inspect_cli.reporting.words.recorded import recorded
 from inspect_cli.reporting.words.text import Text, number, say, sentences, significant
 
 
-def map_caption(evaluated: Evaluated, drawn: int, crosses: int, most_signs: int) -> Text:
+def map_caption(evaluated: SurfaceFindings, drawn: int, crosses: int, most_signs: int) -> Text:
     """What the map shows and how it was made; what is left out of it is said.
 
     Args:
@@ -40,7 +40,7 @@ def map_caption(evaluated: Evaluated, drawn: int, crosses: int, most_signs: int)
     )
 
 
-def _of_the_map(evaluated: Evaluated) -> Iterator[Text]:
+def _of_the_map(evaluated: SurfaceFindings) -> Iterator[Text]:
     kriged = evaluated.map
     if not isinstance(kriged, KrigedMap):
         yield say("No contours are drawn: {why}.", why=recorded(kriged.why))
@@ -97,7 +97,7 @@ def _plain(value: float) -> Text:
     return number(value, 0) if abs(value) >= 100.0 else significant(value, 3)
 
 
-def _of_the_readings(evaluated: Evaluated, drawn: int, crosses: int) -> Iterator[Text]:
+def _of_the_readings(evaluated: SurfaceFindings, drawn: int, crosses: int) -> Iterator[Text]:
     summary = evaluated.assessed.summary
     if drawn < summary.valid and drawn:
         yield say(
@@ -121,7 +121,7 @@ def _of_the_readings(evaluated: Evaluated, drawn: int, crosses: int) -> Iterator
         )
 
 
-def _of_the_signs(evaluated: Evaluated, most: int) -> Iterator[Text]:
+def _of_the_signs(evaluated: SurfaceFindings, most: int) -> Iterator[Text]:
     active = int(np.count_nonzero(evaluated.assessed.minima.is_active))
     proposals = len(evaluated.assessed.steps.pairs)
     if active:
@@ -135,7 +135,7 @@ def _of_the_signs(evaluated: Evaluated, most: int) -> Iterator[Text]:
         yield say("Of each, the {n} steepest are drawn.", n=number(most, 0))
 
 
-def error_caption(evaluated: Evaluated, kriged: KrigedMap) -> Text:
+def error_caption(evaluated: SurfaceFindings, kriged: KrigedMap) -> Text:
     """What the map of standard errors says."""
     error_mv = 1e3 * kriged.standard_error_v
     return say(

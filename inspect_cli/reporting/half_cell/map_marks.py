@@ -11,7 +11,7 @@ from inspect_cli.reporting.figures.palette import ASTM_STYLES, BLUE, INK, INVALI
 from inspect_cli.reporting.half_cell.map_frame import MAX_WRITTEN_VALUES
 from inspect_cli.reporting.half_cell.places import Place, places_of
 from inspect_cli.reporting.half_cell.potential_scale import colours
-from inspect_cli.reporting.half_cell.surface_findings import Evaluated
+from inspect_cli.reporting.half_cell.surface_findings import SurfaceFindings
 from inspect_cli.reporting.words.printable import shortened
 from inspect_cli.reporting.words.text import Text, number, say, together
 
@@ -58,7 +58,7 @@ def invalid_markers(places: Sequence[Place], reasons: Mapping[str, Text]) -> lis
         return []
     style = INVALID_STYLE
     unknown = say("no potential")
-    told = [
+    hover = [
         say(
             "{label}: no valid reading, {reason}",
             label=words(p.label),
@@ -69,17 +69,17 @@ def invalid_markers(places: Sequence[Place], reasons: Mapping[str, Text]) -> lis
     few = len(places) <= MAX_WRITTEN_VALUES
     line = {"width": 2 if few else 1}
     marker = {"symbol": style.symbol, "size": 12 if few else 6, "color": INK, "line": line}
-    return [{**_at(places), "name": style.label, "marker": marker, "customdata": told}]
+    return [{**_at(places), "name": style.label, "marker": marker, "customdata": hover}]
 
 
-def minima_trace(evaluated: Evaluated, *, written: bool) -> list[Json]:
+def minima_trace(evaluated: SurfaceFindings, *, written: bool) -> list[Json]:
     """The minima that the gradient criterion calls active, around their readings' markers."""
     minima = evaluated.assessed.minima
     active = np.flatnonzero(minima.is_active)[:MOST_SIGNS]
     if not len(active):
         return []
     places = places_of(evaluated.assessed, minima.index[active])
-    told = [
+    hover = [
         say(
             "minimum at {label}: rises by {rise} mV within 1 m",
             label=words(p.label),
@@ -94,15 +94,15 @@ def minima_trace(evaluated: Evaluated, *, written: bool) -> list[Json]:
         "line": {"width": 2, "color": INK},
     }
     name = say("minimum, active by its gradient")
-    return [{**_at(places), "name": name, "marker": marker, "customdata": told}]
+    return [{**_at(places), "name": name, "marker": marker, "customdata": hover}]
 
 
-def proposals_trace(evaluated: Evaluated) -> list[Json]:
+def proposals_trace(evaluated: SurfaceFindings) -> list[Json]:
     """Where the refinement rule asks for a reading more."""
     steps, labels = evaluated.assessed.steps, evaluated.assessed.readings.labels
     if not len(steps.pairs):
         return []
-    told = [
+    hover = [
         say(
             "between {first} and {second}: {difference} mV",
             first=words(str(labels[a])),
@@ -124,7 +124,7 @@ def proposals_trace(evaluated: Evaluated) -> list[Json]:
                 "color": BLUE,
                 "line": {"width": 1.6, "color": BLUE},
             },
-            "customdata": told,
+            "customdata": hover,
         }
     ]
 

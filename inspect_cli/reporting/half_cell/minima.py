@@ -16,9 +16,9 @@ PLACE = (
 
 def gradient_blocks(found: GradientFindings) -> list[Block]:
     """The minima, how they rise, and which are judged active; or why there are none."""
-    told = sentences([judged(found), _not_judged(found), _depth(found)])
+    paragraph = sentences([judged(found), _not_judged(found), _depth(found)])
     if not found.steepest:
-        return [Paragraph(told, "note")]
+        return [Paragraph(paragraph, "note")]
     columns = [
         Column(say("Point")),
         *PLACE,
@@ -36,7 +36,7 @@ def gradient_blocks(found: GradientFindings) -> list[Block]:
             _listed(len(found.steepest), found.minima),
         ]
     )
-    return [Paragraph(told), Table(caption, columns, [_minimum(m) for m in found.steepest])]
+    return [Paragraph(paragraph), Table(caption, columns, [_minimum(m) for m in found.steepest])]
 
 
 def judged(found: GradientFindings) -> Text:

@@ -19,7 +19,7 @@ from inspect_cli.assessment.classes import (
 from inspect_cli.assessment.readings import SAME_PLACE_DECIMALS
 from inspect_cli.reporting.half_cell.points import ReadPoint
 from inspect_cli.reporting.half_cell.potential_scale import potential_range, reading_text
-from inspect_cli.reporting.half_cell.surface_findings import Evaluated
+from inspect_cli.reporting.half_cell.surface_findings import SurfaceFindings
 from inspect_cli.reporting.words.text import Text, count, separated
 from inspect_cli.schema.assessment import AstmClass
 from inspect_cli.schema.result import Corrosion
@@ -68,7 +68,7 @@ def places_of(assessed: Assessed, chosen: Indices) -> list[Place]:
     ]
 
 
-def shared_range(evaluated: Sequence[Evaluated]) -> tuple[float, float]:
+def shared_range(evaluated: Sequence[SurfaceFindings]) -> tuple[float, float]:
     """Ends of one scale of potentials for all surfaces, mV."""
     valid = (e.assessed.readings.potential_v[e.assessed.readings.valid] for e in evaluated)
     return potential_range(
@@ -77,7 +77,7 @@ def shared_range(evaluated: Sequence[Evaluated]) -> tuple[float, float]:
 
 
 def points_on(
-    evaluated: Sequence[Evaluated], points: Iterable[ReadPoint]
+    evaluated: Sequence[SurfaceFindings], points: Iterable[ReadPoint]
 ) -> dict[str, list[ReadPoint]]:
     """The points of each surface; where only one was evaluated, those without a surface too."""
     found: dict[str, list[ReadPoint]] = {e.surface: [] for e in evaluated}

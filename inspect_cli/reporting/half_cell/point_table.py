@@ -10,7 +10,7 @@ from inspect_cli.reporting.content.blocks import Column, Table
 from inspect_cli.reporting.half_cell.class_chips import class_chip
 from inspect_cli.reporting.half_cell.places import index_of_places, place_key, points_on
 from inspect_cli.reporting.half_cell.points import ReadPoint
-from inspect_cli.reporting.half_cell.surface_findings import Evaluated
+from inspect_cli.reporting.half_cell.surface_findings import SurfaceFindings
 from inspect_cli.reporting.words.text import (
     NOTHING,
     Chip,
@@ -40,7 +40,7 @@ class Sureness:
     doubtful: bool
 
 
-def points_table(points: Sequence[ReadPoint], evaluated: Sequence[Evaluated]) -> Table:
+def points_table(points: Sequence[ReadPoint], evaluated: Sequence[SurfaceFindings]) -> Table:
     """Every point, as far as a page has room; columns that no point fills are left out."""
     shown = points[:MOST_POINTS]
     sure = sureness_of(shown, evaluated)
@@ -71,7 +71,9 @@ def points_table(points: Sequence[ReadPoint], evaluated: Sequence[Evaluated]) ->
     return Table(caption, [column for column, _ in kept], rows, wide=True)
 
 
-def sureness_of(points: Sequence[ReadPoint], evaluated: Sequence[Evaluated]) -> dict[int, Sureness]:
+def sureness_of(
+    points: Sequence[ReadPoint], evaluated: Sequence[SurfaceFindings]
+) -> dict[int, Sureness]:
     """Of the points that have a potential and were evaluated, by their place in ``points``."""
     by_name = {e.surface: e.assessed for e in evaluated}
     index = {name: index_of_places(assessed) for name, assessed in by_name.items()}

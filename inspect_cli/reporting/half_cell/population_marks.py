@@ -61,7 +61,7 @@ def threshold_words(axis: str, mixture: MixtureFindings, ends: tuple[float, floa
     return [{**base, **place, "yanchor": "top", "xshift": shift}]
 
 
-def told_of_the_curves(mixture: MixtureFindings) -> Text:
+def curves_caption(mixture: MixtureFindings) -> Text:
     """What the curves are; nothing where there are none."""
     if mixture.active is not None:
         return say(

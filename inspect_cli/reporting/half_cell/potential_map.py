@@ -27,12 +27,12 @@ from inspect_cli.reporting.half_cell.map_marks import (
 )
 from inspect_cli.reporting.half_cell.places import Indices, places_of, thinned_places
 from inspect_cli.reporting.half_cell.potential_scale import colour_axis, colour_bar
-from inspect_cli.reporting.half_cell.surface_findings import Evaluated
+from inspect_cli.reporting.half_cell.surface_findings import SurfaceFindings
 from inspect_cli.reporting.words.text import Text, number, say, together
 
 
 def map_figure(
-    k: int, evaluated: Evaluated, ends: tuple[float, float], reasons: Mapping[str, Text]
+    k: int, evaluated: SurfaceFindings, ends: tuple[float, float], reasons: Mapping[str, Text]
 ) -> Figure | None:
     """The map of one surface; None where nothing was read.
 
@@ -79,7 +79,7 @@ def map_figure(
     )
 
 
-def _drawn(evaluated: Evaluated, valid: Indices) -> Indices:
+def _drawn(evaluated: SurfaceFindings, valid: Indices) -> Indices:
     """The valid readings that are drawn one by one: where a map tells it better, none of many."""
     if len(valid) <= MOST_MARKERS:
         return valid

@@ -5,23 +5,26 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 
 from inspect_cli.reporting.content.blocks import Box
-from inspect_cli.reporting.half_cell.findings_text import areas_told, told_of
+from inspect_cli.reporting.half_cell.findings_text import (
+    area_sentences,
+    gradient_and_population_sentences,
+)
 from inspect_cli.reporting.half_cell.points import ReadPoint
-from inspect_cli.reporting.half_cell.surface_findings import Evaluated
+from inspect_cli.reporting.half_cell.surface_findings import SurfaceFindings
 from inspect_cli.reporting.words.naming import named
 from inspect_cli.reporting.words.text import Text, count, number, say, together
 from inspect_cli.schema.result import PointResult
 
 
-def findings(points: Sequence[ReadPoint], evaluated: Sequence[Evaluated] = ()) -> list[Text]:
+def findings(points: Sequence[ReadPoint], evaluated: Sequence[SurfaceFindings] = ()) -> list[Text]:
     """The finding of the readings in sentences: how much is valid, what corrodes, and how much."""
     if not points:
         return []
     return [
         _validity(points),
-        *areas_told(evaluated),
+        *area_sentences(evaluated),
         *_corrosion(points),
-        *told_of(evaluated),
+        *gradient_and_population_sentences(evaluated),
     ]
 
 

@@ -17,7 +17,7 @@ from inspect_cli.reporting.half_cell.potential_scale import (
     class_line,
     potential_range,
 )
-from inspect_cli.reporting.half_cell.surface_findings import Evaluated
+from inspect_cli.reporting.half_cell.surface_findings import SurfaceFindings
 from inspect_cli.reporting.words.text import number, say, sentences
 from inspect_cli.spatial.arrays import Points
 
@@ -28,7 +28,7 @@ MOST_DRAWN = 2000
 SIZES_PX = ((100, 11), (500, 7), (MOST_DRAWN, 4))
 
 
-def resistivity_figure(k: int, evaluated: Evaluated) -> Figure | None:
+def resistivity_figure(k: int, evaluated: SurfaceFindings) -> Figure | None:
     """Potential against resistivity of surface ``k`` with the regions of the combined rule."""
     readings = evaluated.assessed.readings
     known = np.flatnonzero(readings.valid & is_resistivity(readings.resistivity_ohm_m))

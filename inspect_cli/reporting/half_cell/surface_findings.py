@@ -1,4 +1,4 @@
-"""What a report shows of one surface's readings: findings and map, both computed before."""
+"""The findings and the map of one surface, both computed before the report is written."""
 
 from __future__ import annotations
 
@@ -9,8 +9,8 @@ from inspect_cli.assessment.kriging import KrigedMap, NoMap
 
 
 @dataclass(frozen=True)
-class Evaluated:
-    """A surface's readings, evaluated; of a flight or from a file."""
+class SurfaceFindings:
+    """The findings from a surface's readings, of a flight or of a file, with their map."""
 
     assessed: Assessed
     map: KrigedMap | NoMap

@@ -36,11 +36,11 @@ def truth_table(points: Sequence[ReadPoint]) -> list[Block]:
         Column(say("Peak"), "N", numeric=True),
         Column(say("Off target"), "mm", numeric=True),
     ]
-    told = say(
+    what = say(
         "Readings against the truth of the simulation, which no part of the vehicle could see."
     )
     shown = points[:MOST_POINTS]
-    caption = sentences([told, rows_left_out(len(points))])
+    caption = sentences([what, rows_left_out(len(points))])
     return [Table(caption, columns, [_truth_row(p.point) for p in shown], wide=True)]
 
 
