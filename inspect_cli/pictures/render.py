@@ -1,7 +1,7 @@
 """Pictures of a flight from its log alone: a rendered scene and a short film.
 
-Rendering goes on in a process of its own (``pictures.darkroom``): whatever a driver of graphics
-does there, it takes no report down. What it cannot do is said in a sentence.
+Rendering runs in a process of its own (``pictures.render_process``): if a graphics driver crashes
+there, the report is still written, and a note says why pictures are missing.
 """
 
 from __future__ import annotations
@@ -27,7 +27,7 @@ if TYPE_CHECKING:
 TIME_LIMIT_S = 90.0
 RENDER_PROCESS = "inspect_cli.pictures.render_process"
 UNLOADABLE = (ImportError, AttributeError, OSError, RuntimeError)
-"""What importing MuJoCo raises, depending on what MUJOCO_GL asks for in vain."""
+"""Exceptions of importing MuJoCo where the backend that MUJOCO_GL names is missing."""
 SEE_DOCTOR = "'inspect doctor' says what is missing"
 
 
@@ -65,7 +65,7 @@ def render_pictures(
         time_limit_s: for rendering.
 
     Raises:
-        LogError: the log lacks the attachments that the pictures stand on.
+        LogError: the log lacks attachments that the pictures need.
     """
     try:
         from inspect_cli.pictures.direction import direct
@@ -94,7 +94,7 @@ def render_pictures(
 
 
 def _rendered(folder: Path, time_limit_s: float) -> str | None:
-    """Run the darkroom; None when it did all of its work, else why not."""
+    """Run the render process; None if it finished, else the reason why not."""
     environment = dict(os.environ)
     if sys.platform == "linux":
         environment.setdefault("MUJOCO_GL", "egl")
@@ -157,7 +157,7 @@ def _of(flight: str) -> str:
 
 
 def _sentences(first: str, log: RunLog, directed: Direction) -> str:
-    """What is seen, whose motion it is, and what the surfaces and marks stand for."""
+    """A caption: what is seen, whose poses are drawn, and what the surfaces and marks stand for."""
     moves = {
         "truth": "Poses are the simulation's true ones",
         "estimate": "Poses are the vehicle's own estimate",

@@ -1,4 +1,4 @@
-"""What appears on the structure as the flight goes on: points to touch, readings, strokes."""
+"""Marks that appear on the structure during the flight: points to touch, readings, strokes."""
 
 from __future__ import annotations
 
@@ -55,9 +55,9 @@ class Mark:
     rgba: Rgba
     symbol: str
     from_s: float
-    """When it appears,"""
+    """Time from which it is visible, s."""
     until_s: float = np.inf
-    """and when it goes."""
+    """Time at which it vanishes, s."""
     meaning: str = ""
     """The class of readings that it stands for."""
 
@@ -89,7 +89,8 @@ def marks_of(
 
 
 def _reading_radius(plan: Plan) -> float:
-    """A third of the least distance between two points, within bounds."""
+    """Radius of a reading's mark, m: 0.36 of the least distance between two points, within
+    bounds."""
     p_W = np.array([t.p_WC for t in plan.targets if t.kind == "contact"])
     if len(p_W) < 2:
         return MOST_READING_M

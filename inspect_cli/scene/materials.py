@@ -53,7 +53,7 @@ def add_materials(spec: mujoco.MjSpec) -> None:
 
 
 def _add_glow(spec: mujoco.MjSpec) -> None:
-    """What has a meaning keeps its colour, in the sun and in the shade: see ``DIMMED``."""
+    """A glowing material for marks: their colour has a meaning and must not depend on light."""
     material = spec.add_material(name="mark")
     material.emission, material.specular, material.shininess = GLOW, 0.0, 0.0
 

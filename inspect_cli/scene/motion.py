@@ -16,7 +16,7 @@ FAR_M = 200.0
 """A flight that ends farther away than this from where it began has diverged."""
 LEAST_ROWS = 2
 MOST_ROWS = 6000
-"""Of what is kept: a film of a quarter of an hour then still has ten rows a second."""
+"""Largest number of rows: a film of 15 minutes of flight still has more than six rows a second."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -65,7 +65,7 @@ def motion_of(log: RunLog, model: mujoco.MjModel) -> Motion | None:
 
 
 def _leading_finite(t_s: Vector, qpos: Points) -> int:
-    """How many rows come before the first that cannot be drawn."""
+    """Number of rows before the first that cannot be drawn."""
     with np.errstate(invalid="ignore", over="ignore"):
         away = np.linalg.norm(qpos[:, :3] - qpos[0, :3], axis=1)
         turned = np.linalg.norm(qpos[:, 3:7], axis=1)

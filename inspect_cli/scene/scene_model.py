@@ -1,4 +1,4 @@
-"""The MuJoCo model of a picture: the dressed vehicle before the structure as it was believed."""
+"""The MuJoCo model of a scene: the visible vehicle and the structure as the planner believed it."""
 
 from __future__ import annotations
 
@@ -20,12 +20,12 @@ from inspect_cli.vehicles.kinds import Vehicle
 
 THICKNESS_M = 0.15
 SEGMENTS = 48
-"""Of a curved patch along each of its coordinates."""
+"""Segments of a curved patch along each of its coordinates."""
 FIELD_OF_VIEW_DEG = 32.0
 WIDEST, HIGHEST = 1280, 720
 MARK_HALF_M = 0.004
 SHADOW_REACH = 1.7
-"""Of the scene's size; beyond it nothing throws a shadow."""
+"""Distance in scene sizes beyond which nothing casts a shadow."""
 
 
 def build_scene(
@@ -40,9 +40,9 @@ def build_scene(
     """Compile the scene; mark k is the geom ``mark:k``, and none is visible yet.
 
     Args:
-        vehicle: whose nominal model is dressed.
-        surfaces: the structure.
-        marks: what will appear on it.
+        vehicle: its nominal model gets visible parts.
+        surfaces: the structure as the planner believed it.
+        marks: shapes that will appear on the structure.
         light_from: direction (3,) towards the sun, W.
         overhead: from 0 for walls and floors to 1 for what is seen from below.
         center_W: middle (3,) of what is shown, W, m.
@@ -89,7 +89,7 @@ def _set_view(spec: mujoco.MjSpec, center_W: Vector, extent_m: float) -> None:
 def _add_lights(
     spec: mujoco.MjSpec, light_from: Vector, overhead: float, center_W: Vector, extent_m: float
 ) -> None:
-    """A sun with shadows, and a fill from below for what hangs over."""
+    """A sun with shadows, and a fill light from below for overhead surfaces."""
     spec.worldbody.add_light(
         name="sun",
         type=mujoco.mjtLightType.mjLIGHT_DIRECTIONAL,
@@ -166,7 +166,7 @@ def slab(patch: Structured, segments: tuple[int, int]) -> tuple[Points, Points, 
 
 
 def _thickness(patch: Structured) -> float:
-    """What is round and solid is no thicker than it is."""
+    """Thickness of the slab, m; of a solid cylinder or sphere at most half its radius."""
     radius, outside = float(patch["radius"][0]), patch["side"][0] > 0
     round_and_solid = patch["kind"][0] != PLANE and outside
     return min(THICKNESS_M, 0.5 * radius) if round_and_solid else THICKNESS_M

@@ -1,4 +1,4 @@
-"""Where the camera stands: the whole of what matters in the frame, and nothing before it."""
+"""Views of a scene: camera positions with all given points in the frame and few of them hidden."""
 
 from __future__ import annotations
 
@@ -15,16 +15,16 @@ from inspect_cli.spatial.primitives import raycast
 MARGIN = 1.06
 LOWEST_EYE_M = 0.15
 SHORT_M = 0.02
-"""A ray that ends so much before its point is taken to have reached it."""
+"""A point counts as visible if the ray to it ends at most this far before it, m."""
 AZIMUTHS_DEG = (52.0, -52.0, 38.0, -38.0, 70.0, -70.0, 20.0, -20.0, 0.0)
-"""From the direction that the surfaces face."""
+"""Azimuths of the camera from the direction that the surfaces face."""
 ELEVATIONS_DEG = {
     "wall": (19.0, 7.0, 24.0, -6.0),
     "above": (-7.0, 2.0, 12.0),
     "below": (24.0, 38.0),
 }
 OVERHEAD, UNDERFOOT = -0.5, 0.5
-"""z of a normal beyond which a surface hangs over the vehicle, or lies under it."""
+"""z of the normal below or above which a surface is overhead or underfoot."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -36,7 +36,7 @@ class View:
 
 
 def facing(plan: Plan) -> Vector:
-    """The mean outward normal (3,) of what is worked on, a unit vector."""
+    """The mean outward normal (3,) at the targets, a unit vector."""
     n_W: Vector = np.mean([target.n_W for target in plan.targets], axis=0)
     length = np.linalg.norm(n_W)
     return n_W / length if length > 0.1 else np.array([-1.0, 0.0, 0.0])
@@ -47,7 +47,7 @@ def best_view(
 ) -> View:
     """The view of all points ``shown`` (n, 3) from which most of ``watched`` (m, 3) is seen.
 
-    Of two sides that are alike it takes the one to which ``beside`` (3,) points.
+    Of two equally good sides it takes the one to which ``beside`` (3,) points.
     """
     patches = primitives_of([surface.shape for surface in plan.surfaces])
     n_W = facing(plan)
@@ -57,7 +57,7 @@ def best_view(
 
 
 def _directions(n_W: Vector, beside: Vector) -> list[Vector]:
-    """Unit vectors from the scene to the camera, the best liked first."""
+    """Unit vectors from the scene to the camera, the preferred first."""
     level = np.array([n_W[0], n_W[1], 0.0])
     length = np.linalg.norm(level)
     level = level / length if length > 0.3 else np.array([-1.0, 0.0, 0.0])

@@ -1,8 +1,8 @@
-"""A vehicle that can be looked at: its nominal model, with booms and rotors.
+"""The visual model of a vehicle: its nominal model with visible booms and rotors.
 
-Only what every kind of vehicle promises is used (``vehicles.kinds``), so that a new kind is
-dressed without a line here: an actuator on a site is a rotor, whose disc lies across the site's
-z; what carries it is joined to the core by a boom.
+Only the contract of all vehicles is used (``vehicles.kinds``), so that a new kind needs no line
+here: an actuator on a site is a rotor, whose disc is normal to the site's z; a boom joins its
+carrier to the core.
 """
 
 from __future__ import annotations
@@ -18,7 +18,7 @@ BOOM_M, HUB_M, RING_M, STRUT_M = 0.009, 0.014, 0.004, 0.005
 RING, RING_SIDES, RING_SEGMENTS = "rotor_ring", 6, 40
 BLADE_CHORD, BLADE_HALF_M = 0.13, 0.002
 AHEAD = 0.8
-"""Cosine of the angle to the tool within which a boom counts as one of the tool's side."""
+"""Cosine of the angle between a boom and the tool above which the boom is on the tool's side."""
 
 
 def visual_model(vehicle: Vehicle) -> mujoco.MjSpec:
@@ -65,7 +65,7 @@ def _add_struts(spec: mujoco.MjSpec) -> None:
 
 
 def _add_ring_mesh(spec: mujoco.MjSpec, radius_m: float) -> None:
-    """A thin torus about z: the path of the blades' ends, which hides nothing."""
+    """A thin torus about z along the path of the blade tips, which hides little."""
     around = np.linspace(0.0, 2.0 * np.pi, RING_SEGMENTS, endpoint=False)
     across = np.linspace(0.0, 2.0 * np.pi, RING_SIDES, endpoint=False)
     phi, psi = np.meshgrid(around, across, indexing="ij")

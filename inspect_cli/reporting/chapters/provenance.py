@@ -1,4 +1,4 @@
-"""Where every number comes from: files, versions, seed, plan, chosen constants."""
+"""The chapter on provenance: files, versions, seed, plan, chosen constants."""
 
 from __future__ import annotations
 

@@ -46,7 +46,7 @@ class Paragraph:
 
 @dataclass(frozen=True)
 class Facts:
-    """Names and what they stand for."""
+    """Pairs of a name and its value."""
 
     pairs: Sequence[tuple[Text, Text]]
 
@@ -83,7 +83,7 @@ class Table:
     columns: Sequence[Column]
     rows: Sequence[Sequence[Text]]
     wide: bool = False
-    """Many columns: set smaller."""
+    """Whether the table has many columns and is set in smaller letters."""
 
 
 @dataclass(frozen=True)
@@ -145,7 +145,7 @@ class Section:
 
 @dataclass(frozen=True)
 class Cover:
-    """What stands before everything else."""
+    """The opening of a report, before its sections."""
 
     kicker: Text
     """The line over the title: what kind of report this is."""
@@ -153,7 +153,7 @@ class Cover:
     description: Text
     facts: Sequence[tuple[Text, Text]]
     signed: Sequence[Text] = ()
-    """What is filled in by hand under each of some lines, on paper alone."""
+    """Lines to be filled in by hand, on paper only."""
 
 
 @dataclass(frozen=True)
@@ -161,6 +161,6 @@ class Document:
     """A whole report."""
 
     title: Text
-    """Of the window and the file."""
+    """Title of the browser window and of the file."""
     cover: Cover
     sections: Sequence[Section]

@@ -1,4 +1,4 @@
-"""The mission's acceptance, answered, with what was published beside it."""
+"""The table of acceptance checks with the published values beside ours."""
 
 from __future__ import annotations
 

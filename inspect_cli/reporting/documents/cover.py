@@ -12,7 +12,7 @@ from inspect_cli.reporting.words.recorded import recorded
 from inspect_cli.reporting.words.text import NOTHING, Badge, Text, say, separated, together
 
 SIGNED = (say("Place and date"), say("Name and signature of who answers for the evaluation"))
-"""What a report of a real structure is handed over with."""
+"""Lines to be signed in the report of a real structure."""
 
 
 def cover(material: Material, chapters: Iterable[Chapter], title: str) -> Cover:

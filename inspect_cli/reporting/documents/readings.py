@@ -39,7 +39,7 @@ ASSUMED: dict[str, Text] = {
     "coordinate_unit": say("the coordinates are in metres"),
     "seen_from_m": say("the surface was read from the side of the coordinates' origin"),
 }
-"""What a setting that nobody stated comes to."""
+"""The assumption for each setting that nobody stated."""
 SPACING_ASSUMED = say(
     "Nobody stated the spacing of the grid: areas and gradients rest on an assumed 0.1016 m."
 )
@@ -75,7 +75,7 @@ def _summary(
 
 
 def _warnings(result: ReadingsResult) -> list[Text]:
-    """What has to be known before any number is read."""
+    """Warnings that stand before all numbers."""
     assumed = [SPACING_ASSUMED] if "spacing_m" in result.assumed else []
     return [*assumed, *(recorded(warning) for warning in result.warnings)]
 

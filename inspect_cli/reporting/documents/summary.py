@@ -46,7 +46,7 @@ def summary(material: Material, chapters: Iterable[Chapter]) -> list[Block]:
 
 
 def warnings(result: Result, expected: Status) -> list[Block]:
-    """What spoils a flight whatever it read: its end, a body that touched, motion at the end."""
+    """Warnings about the flight: how it ended, contact of the body, motion at the end."""
     found: list[Text] = []
     if result.status != "completed":
         why = recorded(result.status_reason)

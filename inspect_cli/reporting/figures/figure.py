@@ -1,4 +1,4 @@
-"""A figure as plain plotly JSON, and how numbers and words get into it."""
+"""A figure as plain plotly JSON, with numbers and words encoded for plotly."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from inspect_cli.reporting.words.text import Text
 Json = dict[str, Any]
 
 EQUAL_FRAME_PX = 170
-"""Legend and axes around what is drawn at equal scales."""
+"""Height of legend and axes around a drawing at equal scales."""
 
 
 @dataclass(frozen=True)

@@ -1,7 +1,8 @@
-"""One meaning, one colour, on the whole page. Colours after Okabe & Ito, Color Universal Design
-(2008), blue and vermilion somewhat darker and purple bluer than there, so that each pair in a
-figure stays apart for all common kinds of colour blindness. Nothing is told by colour alone:
-lines differ in dash, classes in marker shape, verdicts in words.
+"""Colours of all figures: each stands for one meaning on the whole page.
+
+After Okabe & Ito, Color Universal Design (2008), with darker blue and vermilion and a bluer purple,
+so that each pair in a figure can be distinguished with all common kinds of colour blindness. No
+meaning is shown by colour alone: lines differ in dash, classes in marker shape, verdicts in words.
 """
 
 from __future__ import annotations
@@ -59,7 +60,7 @@ SATURATED = LineStyle(say("saturated"), VERMILION, "solid", 1.0)
 
 
 TRIALS = ((BLUE, "solid"), (VERMILION, "dash"), (GREEN, "dashdot"), (PURPLE, "longdash"))
-"""Colours and dashes of what is done several times, in turn."""
+"""Colours and dashes of repeated trials, by repetition index; the list repeats."""
 
 
 def trial_style(trial: int) -> LineStyle:
@@ -116,7 +117,7 @@ ERROR_STOPS = ((0.0, "#f4f8fc"), (0.35, "#b3d3ea"), (0.7, "#4a90c4"), (1.0, "#0b
 
 
 def css_variables() -> str:
-    """The colours for the style sheet, which has none of its own."""
+    """The colours as CSS variables for the style sheet."""
     colours = {
         "ink": INK,
         "muted": MUTED,

@@ -17,7 +17,7 @@ def rows_of(log: RunLog, record: type[Record]) -> Structured | None:
 
 
 def held_at(rows: Structured, t_s: Vector) -> Structured:
-    """The latest row at each time, as a sample-and-hold gives it; the first row before that."""
+    """The latest row at or before each time (sample and hold); the first row before all."""
     index = np.searchsorted(rows["t_s"], t_s, side="right") - 1
     return rows[np.clip(index, 0, len(rows) - 1)]
 

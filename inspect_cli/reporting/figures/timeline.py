@@ -24,7 +24,7 @@ OFF_GROUND = (
 PRESSED = (Mode.PRESS, Mode.SLIDE)
 """Modes of a contact, from the press to the end of the slide if there is one."""
 LARGEST_DRAWN = 1e6
-"""Beyond this only a diverged simulation goes; an axis that showed it would show nothing else."""
+"""Larger values come from a diverged simulation; an axis that includes them shows nothing else."""
 TIME = say("time (s)")
 PANEL_GAP_PX = 14
 TOP_PX = 64
@@ -42,7 +42,7 @@ class Phase:
 
 @dataclass(frozen=True)
 class Mark:
-    """A moment with a word for it, and which end of the word stands there."""
+    """A moment with a label, and which end of the label is at it."""
 
     t_s: float
     label: Text
@@ -51,10 +51,10 @@ class Mark:
 
 @dataclass(frozen=True)
 class Timeline:
-    """What the figures over time have in common."""
+    """The common time axis of figures: contacts, drawn window, time off the ground."""
 
     phases: tuple[Phase, ...] = ()
-    """The contacts, or whatever else is shaded."""
+    """The contacts, or other stretches to shade."""
     off_ground_s: tuple[float, float] | None = None
     """From the end of the take-off to the beginning of the landing."""
     marks: tuple[Mark, ...] = ()
@@ -199,7 +199,7 @@ def stacked(
 
 
 def _cut(line: Line, timeline: Timeline) -> Line:
-    """What lies in the window, so that thinning spends its samples there."""
+    """The part of the line within the window, so that thinning keeps its samples there."""
     if timeline.window_s is None:
         return line
     t_s = np.asarray(line.t_s)

@@ -1,4 +1,4 @@
-"""A drawing in the plane of its surface, trial upon trial, and what it took over time.
+"""Figures of a drawing: all trials in the plane of the surface, and their course over time.
 
 After Fig. 7 of Bodie et al., RSS 2019. Trials are laid upon each other by the time since each
 first touched the surface.
@@ -45,7 +45,7 @@ FRAME_PX = 110
 
 @dataclass(frozen=True)
 class Trial:
-    """One time that a drawing was drawn."""
+    """One repetition of a drawing."""
 
     number: int
     targets: tuple[Target, ...]
@@ -55,11 +55,11 @@ class Trial:
     """Rows from first touch to release of each stroke."""
 
     def start_s(self, t_s: Vector) -> float:
-        """When it first touched."""
+        """Time of the first touch, s."""
         return float(t_s[self.contacts[0][0]])
 
     def end_s(self, t_s: Vector) -> float:
-        """When it last let go."""
+        """Time of the last release, s."""
         return float(t_s[self.contacts[-1][-1]])
 
 

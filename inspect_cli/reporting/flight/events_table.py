@@ -16,7 +16,7 @@ MOST_EVENTS = 1000
 
 
 def events_table(log: RunLog) -> list[Block]:
-    """What the vehicle said during the flight; a long list is folded but for its warnings."""
+    """The events of the flight; of a long list only the warnings are unfolded."""
     if not log.events:
         return []
     if len(log.events) <= MANY_EVENTS:

@@ -1,4 +1,4 @@
-"""What the vehicle pressed with, what it felt, what it saw of the surface, what it spent."""
+"""Figures of contact force, external wrench, seen surface and actuators."""
 
 from __future__ import annotations
 

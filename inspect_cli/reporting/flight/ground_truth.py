@@ -52,7 +52,7 @@ ATTITUDE = (
 
 
 def has_ground_truth(log: RunLog) -> bool:
-    """Whether the flight has something to hold its estimates against besides the usual."""
+    """Whether the log holds a force sensor in the wall or an odometry."""
     return any(rows_of(log, record) is not None for record in (WallForce, Odometry))
 
 
@@ -135,7 +135,7 @@ def force_figure(flight: Flight, timeline: Timeline) -> Iterator[Figure]:
 
 
 def rmse_table(result: Result) -> list[Block]:
-    """Our root mean square errors beside the published ones; nothing where none is measured."""
+    """Our root mean square errors beside the published ones; none if nothing was measured."""
     ours = {name: result.value(name) for name in TABLE_IV}
     if all(value is None for value in ours.values()):
         return []

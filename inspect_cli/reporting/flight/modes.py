@@ -1,4 +1,4 @@
-"""What the mission executive was doing, and what it had to say."""
+"""Figure of the executive's modes over time, with its events."""
 
 from __future__ import annotations
 

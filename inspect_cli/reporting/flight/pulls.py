@@ -1,4 +1,4 @@
-"""How the vehicle gave way to pulls at a cord: motion above, the wrench that caused it below.
+"""Figures of pulls at a cord: the motion above, the wrench that caused it below.
 
 After Figs. 5 and 6 of Bodie et al., RSS 2019. Motion and wrench are in the body's axes, in which
 the rope-pull profiles of impedance are given.
@@ -166,7 +166,7 @@ def pull_table(flight: Flight) -> Table:
     """One row for each pull.
 
     Raises:
-        NotMeasured: they cannot be told from the log.
+        NotMeasured: the log does not show the pulls.
     """
     rows = [_row(k + 1, pull) for k, pull in enumerate(pulls(flight))]
     columns = [

@@ -190,7 +190,7 @@ def _cloud(log: RunLog) -> list[Json]:
 
 
 def _eye(plan: Plan) -> Json:
-    """A camera on the free side of the surfaces, somewhat above and to the side of them."""
+    """Position of plotly's camera: on the free side of the surfaces, above and to their side."""
     normals = [target.n_W for target in plan.targets if target.surface is not None]
     n_W: Vector = np.mean(normals, axis=0) if normals else np.array([-1.0, 0.0, 0.0])
     level = np.array([n_W[0], n_W[1], 0.0])

@@ -56,7 +56,7 @@ class SideView:
 
 
 def slides_of(flight: Flight) -> list[Slide]:
-    """The slides of the flight; none where they cannot be told."""
+    """The slides of the flight; none if the log does not show them."""
     try:
         return [slide for slide in slides(flight) if len(slide.contact)]
     except NotMeasured:

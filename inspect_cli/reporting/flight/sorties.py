@@ -22,7 +22,7 @@ from inspect_cli.schema.result import Result
 
 SORTIE_COLOURS = (BLUE, ORANGE, GREEN, PURPLE, VERMILION, SKY_BLUE, INK)
 SORTIE_SYMBOLS = ("circle", "square", "diamond", "triangle-up", "triangle-down", "star", "hexagon")
-"""By turns, so that sorties are told apart without colours as well."""
+"""Marker symbols of sorties in turn, so that they differ without colours, too."""
 WIDTH_PX = 1000.0
 FRAME_PX = 170
 

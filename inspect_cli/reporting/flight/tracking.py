@@ -1,4 +1,4 @@
-"""How well the body followed its reference, and how well it knew where it was."""
+"""Figures of pose tracking and of the pose estimate's error."""
 
 from __future__ import annotations
 
@@ -91,7 +91,7 @@ def tracking_figures(log: RunLog, timeline: Timeline) -> Iterator[Figure]:
 
 
 def _poses(log: RunLog) -> list[tuple[Structured, LineStyle]]:
-    """Who states a pose, in the order of drawing: the reference lies on top."""
+    """Sources of a pose in the order of drawing: the reference is on top."""
     sources = ((State, TRUTH), (Estimate, ESTIMATE), (Reference, REFERENCE))
     found = [(rows_of(log, record), style) for record, style in sources]
     return [(rows, style) for rows, style in found if rows is not None]
@@ -118,7 +118,7 @@ def _panels(
 
 
 def _errors(log: RunLog, difference: Callable[[Structured, Structured], Points]) -> list[Track]:
-    """Where it was, and where it believed to be, against where it should be and was.
+    """Errors of tracking (truth against reference) and of estimation (estimate against truth).
 
     Without truth the estimate stands against the reference: all that a real flight can say.
     """

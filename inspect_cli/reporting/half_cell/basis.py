@@ -1,4 +1,4 @@
-"""What the potentials rest on and how sure they are: electrode, temperature, uncertainty."""
+"""Electrode, temperature and uncertainty of the potentials."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ from inspect_cli.schema.assessment import (
 
 
 def basis_facts(summary: SurfaceAssessment) -> Facts:
-    """From what a voltmeter showed to potentials against CSE at the standard's temperature."""
+    """How readings of the voltmeter became potentials against CSE at the standard's temperature."""
     basis = summary.basis
     correction: Text = say("{mv} mV added", mv=number(basis.temperature_correction_mv, 1))
     if basis.temperature_correction_mv == 0.0:

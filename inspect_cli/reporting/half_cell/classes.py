@@ -1,4 +1,5 @@
-"""Tables of classes: ASTM C876, the combined verdict, resistivity, and one against the other."""
+"""Tables of classes: ASTM C876, the combined verdict, resistivity, and potential against
+resistivity."""
 
 from __future__ import annotations
 
@@ -52,7 +53,8 @@ def percent(share: float | None) -> Text:
 
 
 def area(area_m2: float | None) -> Text:
-    """An area, m²: of a small one the square centimetres, of a large one none."""
+    """An area, m², to the square centimetre if it is small and to the square metre if it is
+    large."""
     if not area_m2:
         return number(area_m2, 0)
     return number(area_m2, next((n for least, n in AREA_DECIMALS if area_m2 >= least), 4))

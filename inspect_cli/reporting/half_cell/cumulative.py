@@ -97,7 +97,7 @@ def cumulative_figure(k: int, evaluated: SurfaceFindings) -> Figure | None:
 
 
 def _kept(z: Vector) -> Indices:
-    """Of normal scores (n,), ascending, those that are evenly spread over the scale's axis."""
+    """Indices of ascending normal scores (n,) that are evenly spread over the axis."""
     if len(z) <= MOST_DRAWN:
         return np.arange(len(z))
     nearest = np.searchsorted(z, np.linspace(z[0], z[-1], MOST_DRAWN))

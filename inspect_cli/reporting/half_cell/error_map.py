@@ -1,4 +1,4 @@
-"""The map of what the kriged potentials may be wrong by."""
+"""The map of the standard error of the kriged potentials."""
 
 from __future__ import annotations
 

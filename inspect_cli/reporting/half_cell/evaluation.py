@@ -39,7 +39,7 @@ from inspect_cli.schema.scoring import Scoring
 def evaluation_blocks(
     evaluated: Sequence[SurfaceFindings], points: Sequence[ReadPoint], scoring: Scoring | None
 ) -> list[Block]:
-    """Everything that was found, drawn and in numbers.
+    """All findings as figures, tables and sentences.
 
     Args:
         evaluated: each surface's findings and map.

@@ -19,11 +19,11 @@ from inspect_cli.spatial.arrays import Points, Vector
 NARROWEST_STEP_MV = 5.0
 BOUNDARIES_MV = (ACTIVE_BELOW_MV, PASSIVE_ABOVE_MV)
 LABEL_PX = (40.0, 17.0)
-"""Room that a value takes."""
+"""Room for the value of a line."""
 SHORTEST_PX = 60.0
-"""A line shorter than that goes without a value."""
+"""Shorter lines get no value."""
 TRIED = (0.5, 0.3, 0.7, 0.15, 0.85)
-"""Where along a line its value may stand, in turn."""
+"""Places along a line at which its value is tried, as shares of its length."""
 MOST_LABELS = 60
 HALO = ", ".join(["0 0 2px #ffffff"] * 4)
 
@@ -107,7 +107,7 @@ def values(kriged: KrigedMap, px_per_m: float, readings_m: Points) -> list[Json]
 
 
 def _free(px: Points, taken: Sequence[Vector]) -> Vector | None:
-    """A place on the line (n, 2) that covers nothing; None if there is none."""
+    """A place on the line (n, 2) whose value would cover nothing else; None if there is none."""
     along = np.concatenate([[0.0], np.cumsum(np.hypot(*np.diff(px, axis=0).T))])
     if along[-1] < SHORTEST_PX or not math.isfinite(along[-1]):
         return None

@@ -1,4 +1,4 @@
-"""What stands under the maps of a surface."""
+"""Captions of the maps of a surface."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ from inspect_cli.reporting.words.text import Text, number, say, sentences, signi
 
 
 def map_caption(evaluated: SurfaceFindings, drawn: int, crosses: int, most_signs: int) -> Text:
-    """What the map shows and how it was made; what is left out of it is said.
+    """Caption of the map: what it shows, how it was made, and what it leaves out.
 
     Args:
         evaluated: the surface.
@@ -93,7 +93,7 @@ def _variogram(variogram: Variogram) -> Text:
 
 
 def _plain(value: float) -> Text:
-    """Three digits or more, never a power of ten where there are digits before the point."""
+    """At least three significant digits, without a power of ten for numbers of 1 or more."""
     return number(value, 0) if abs(value) >= 100.0 else significant(value, 3)
 
 
@@ -136,7 +136,7 @@ def _of_the_signs(evaluated: SurfaceFindings, most: int) -> Iterator[Text]:
 
 
 def error_caption(evaluated: SurfaceFindings, kriged: KrigedMap) -> Text:
-    """What the map of standard errors says."""
+    """Caption of the map of standard errors."""
     error_mv = 1e3 * kriged.standard_error_v
     return say(
         "Standard error of the interpolated potential on surface “{surface}”, {least} to {most} "

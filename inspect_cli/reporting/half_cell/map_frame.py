@@ -1,4 +1,4 @@
-"""What maps of a surface have in common: their stretch of it, their axes, their field."""
+"""The frame of all maps of a surface: drawn stretch, axes, field."""
 
 from __future__ import annotations
 
@@ -16,14 +16,14 @@ MAP_WIDTH_PX = 1000.0
 MAP_FRAME_PX = 44 + 110
 LOWEST_PX, HIGHEST_PX, TALLEST_PX = 160.0, 560.0, 840.0
 FLATTEST = 0.36
-"""Of a map with words: its shorter side over the longer one, at least."""
+"""Least ratio of the shorter to the longer side of a map with labels."""
 TALL = 1.3
 """Height over width from which two maps stand side by side."""
 
 
 @dataclass(frozen=True)
 class Frame:
-    """The drawn stretch of a surface: the readings with room around them, never a mere line."""
+    """The drawn stretch of a surface: all readings with a margin, never of zero width."""
 
     u_m: tuple[float, float]
     v_m: tuple[float, float]
@@ -41,7 +41,7 @@ class Frame:
 
     @property
     def px_per_m(self) -> float:
-        """How large a metre is drawn on a wide screen."""
+        """Pixels per metre on a wide screen."""
         across = MAP_WIDTH_PX / (self.u_m[1] - self.u_m[0])
         return min(across, self.height_px / (self.v_m[1] - self.v_m[0]))
 
@@ -74,7 +74,7 @@ def frame_of(uv_m: Points) -> Frame:
 
 
 def field_trace(kriged: KrigedMap, field: Points) -> Json:
-    """What the contours of a map's field (rows, columns) have in common; NaN stays empty."""
+    """A contour trace of a map's field (rows, columns); NaN stays empty."""
     shown = np.where(np.isfinite(field), np.round(field, 2), np.nan)
     return {
         "type": "contour",

@@ -1,4 +1,4 @@
-"""What stands on a map of potentials: readings, minima, proposals, labels."""
+"""Markers and labels on a map of potentials: readings, minima, proposals."""
 
 from __future__ import annotations
 
@@ -16,15 +16,15 @@ from inspect_cli.reporting.words.printable import shortened
 from inspect_cli.reporting.words.text import Text, number, say, together
 
 MOST_MARKERS = 2000
-"""Readings that are drawn one by one; of more, the field alone is drawn."""
+"""Largest number of readings that are drawn one by one; above it only the field is drawn."""
 MOST_SIGNS = 300
-"""Minima and proposals that are drawn, the steepest first."""
+"""Largest number of minima and of proposals that are drawn, the steepest first."""
 MARKER_PX = 15
 SIZES_PX = ((MAX_WRITTEN_VALUES, MARKER_PX), (400, 9), (MOST_MARKERS, 5))
 HALO = ", ".join(["0 0 2px #ffffff"] * 3)
 """Keeps labels readable on any colour and across lines."""
 MOST_LETTERS = 14
-"""Of a label on the map; the whole one stands in the tables."""
+"""Letters of a label on the map; the tables show all of it."""
 
 
 def valid_markers(places: Sequence[Place], ends: tuple[float, float]) -> list[Json]:
@@ -98,7 +98,7 @@ def minima_trace(evaluated: SurfaceFindings, *, written: bool) -> list[Json]:
 
 
 def proposals_trace(evaluated: SurfaceFindings) -> list[Json]:
-    """Where the refinement rule asks for a reading more."""
+    """Places where the refinement rule asks for another reading."""
     steps, labels = evaluated.assessed.steps, evaluated.assessed.readings.labels
     if not len(steps.pairs):
         return []

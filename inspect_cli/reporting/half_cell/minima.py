@@ -1,4 +1,4 @@
-"""Tables of places: minima by the gradient criterion, and where to read more closely."""
+"""Tables of minima by the gradient criterion, and of places to read more closely."""
 
 from __future__ import annotations
 
@@ -122,7 +122,7 @@ def _listed(shown: int, total: int) -> Text:
 
 
 def refinement_blocks(found: RefinementFindings) -> list[Block]:
-    """Where neighbours differ too much for the spacing of the readings; or that they do not."""
+    """Pairs of neighbours that differ too much for the spacing of the readings, or that none do."""
     if found.why:
         why = say("No closer spacing can be proposed: {why}.", why=recorded(found.why))
         return [Paragraph(why, "note")]

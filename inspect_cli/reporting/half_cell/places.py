@@ -38,10 +38,10 @@ class Place:
     astm_class: AstmClass | None
     verdict: Corrosion | None
     readings: int
-    """Valid ones that its potential is the mean of."""
+    """Number of valid readings whose mean is the potential."""
 
     def text(self) -> Text:
-        """What a figure says of it under the pointer."""
+        """The text that a figure shows under the pointer."""
         several = count(self.readings, "mean of {n} reading", "mean of {n} readings")
         said = reading_text(
             self.label, self.potential_mv, self.astm_class, self.resistivity_ohm_m, self.verdict
@@ -50,7 +50,7 @@ class Place:
 
 
 def places_of(assessed: Assessed, chosen: Indices) -> list[Place]:
-    """The chosen ones of the assessment's points."""
+    """The places at the chosen indices of the assessment."""
     points = assessed.readings
     mv = millivolts(points.potential_v[chosen])
     known = is_resistivity(points.resistivity_ohm_m[chosen])
@@ -90,7 +90,7 @@ def points_on(
 
 
 def index_of_places(assessed: Assessed) -> Mapping[tuple[float, float], int]:
-    """Which of the assessment's points stands at ``place_key`` of a reading."""
+    """Index of the assessment's point by ``place_key`` of a reading."""
     keys = np.round(assessed.readings.uv_m, SAME_PLACE_DECIMALS) + 0.0
     return {(u, v): i for i, (u, v) in enumerate(keys.tolist())}
 

@@ -22,7 +22,7 @@ from inspect_cli.reporting.words.text import (
 )
 
 CERTAIN = 0.999
-"""Of a class, a probability that no more is said about."""
+"""Probability of a class above which it is not stated."""
 MOST_POINTS = 1000
 """Rows of a table of points; ``readings.csv`` has all of them."""
 
@@ -32,11 +32,11 @@ Filled = tuple[Column, Sequence[Text]]
 
 @dataclass(frozen=True)
 class Sureness:
-    """How sure the potential of a reading's place is, and the class that follows."""
+    """Standard uncertainty of the potential at a reading's place, and probability of its class."""
 
     sd_mv: float
     own_class: float
-    """Probability of the class that it is in."""
+    """Probability that the true potential is in the class of the reading."""
     doubtful: bool
 
 
@@ -74,7 +74,7 @@ def points_table(points: Sequence[ReadPoint], evaluated: Sequence[SurfaceFinding
 def sureness_of(
     points: Sequence[ReadPoint], evaluated: Sequence[SurfaceFindings]
 ) -> dict[int, Sureness]:
-    """Of the points that have a potential and were evaluated, by their place in ``points``."""
+    """The uncertainty of each evaluated point by its index in ``points``."""
     by_name = {e.surface: e.assessed for e in evaluated}
     index = {name: index_of_places(assessed) for name, assessed in by_name.items()}
     on = {id(p): name for name, own in points_on(evaluated, points).items() for p in own}
@@ -181,7 +181,7 @@ def _says_something(cell: Text) -> bool:
 
 
 def rows_left_out(points: int) -> Text:
-    """Which points a table has no row for; nothing where it has all."""
+    """A sentence on the points that the table leaves out; empty if it has all."""
     if points <= MOST_POINTS:
         return ""
     return say(

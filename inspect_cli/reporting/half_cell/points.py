@@ -1,4 +1,4 @@
-"""The points of a Result beside the targets that they answer, as the figures need them."""
+"""The points of a Result, each with the target of the plan that it belongs to."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from inspect_cli.schema.result import PointResult, Result
 
 @dataclass(frozen=True)
 class ReadPoint:
-    """What became of a point, and what the plan wanted there."""
+    """The result of a point, and its target in the plan."""
 
     point: PointResult
     target: Target | None

@@ -1,4 +1,4 @@
-"""How the populations and the threshold between them are marked in a diagram."""
+"""Traces and shapes for the populations and their threshold in a diagram."""
 
 from __future__ import annotations
 
@@ -62,7 +62,7 @@ def threshold_words(axis: str, mixture: MixtureFindings, ends: tuple[float, floa
 
 
 def curves_caption(mixture: MixtureFindings) -> Text:
-    """What the curves are; nothing where there are none."""
+    """A sentence on the curves; empty if there are none."""
     if mixture.active is not None:
         return say(
             "Curves: the two normal populations and their sum, fitted by maximum likelihood; the "

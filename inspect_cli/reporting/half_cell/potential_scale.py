@@ -1,4 +1,5 @@
-"""Half-cell potentials in colour and in words; ASTM C876's classes are the scale's joints."""
+"""Colours and words for half-cell potentials; the colour scale jumps at the class boundaries of
+ASTM C876."""
 
 from __future__ import annotations
 
@@ -17,7 +18,7 @@ PASSIVE_ABOVE_MV = 1e3 * PASSIVE_ABOVE_V
 ACTIVE_BELOW_MV = 1e3 * ACTIVE_BELOW_V
 TINY_MV = 1e-6
 STEP_MV = 50.0
-"""The scale ends at a whole number of these."""
+"""Step to which the ends of the scale are rounded, mV."""
 LEAST_RANGE_MV = (-550.0, 0.0)
 
 
@@ -93,7 +94,7 @@ def colour_axis(ends: tuple[float, float]) -> Json:
 
 
 def lying_bar(unit: Text, ticks: Sequence[float]) -> Json:
-    """A colour bar below the drawing, its marks where they are wanted."""
+    """A horizontal colour bar below the drawing, with ticks at given values."""
     return {
         "title": {"text": unit, "side": "right", "font": {"size": 11}},
         "tickvals": list(ticks),
@@ -110,7 +111,7 @@ def lying_bar(unit: Text, ticks: Sequence[float]) -> Json:
 
 
 def hover_text(p: ReadPoint) -> Text:
-    """What a figure says of a valid reading under the pointer."""
+    """The text that a figure shows for a valid reading under the pointer."""
     point = p.point
     return reading_text(
         point.label,

@@ -61,7 +61,7 @@ def _corrosion(points: Sequence[ReadPoint]) -> list[Text]:
 
 
 def _has_resistivity(points: Sequence[ReadPoint]) -> bool:
-    """Without any there is no verdict but that of the potentials."""
+    """Whether any resistivity is known; without one the verdict is by potential alone."""
     return any(p.point.resistivity_ohm_m is not None for p in points)
 
 

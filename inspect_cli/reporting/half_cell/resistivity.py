@@ -22,7 +22,7 @@ from inspect_cli.reporting.words.text import number, say, sentences
 from inspect_cli.spatial.arrays import Points
 
 TEXT_SIDES = ("top center", "bottom center", "middle right", "middle left")
-"""Taken in turn, so that the labels of equal readings do not cover each other."""
+"""Sides of labels in turn, so that labels of equal readings do not cover each other."""
 MOST_LABELLED = 40
 MOST_DRAWN = 2000
 SIZES_PX = ((100, 11), (500, 7), (MOST_DRAWN, 4))

@@ -1,4 +1,4 @@
-"""The verdicts of a simulated survey against what is truly so; nothing of a real one."""
+"""Confusion of the verdicts with the truth of a simulated survey; nothing for a real one."""
 
 from __future__ import annotations
 

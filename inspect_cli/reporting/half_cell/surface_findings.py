@@ -17,5 +17,5 @@ class SurfaceFindings:
 
     @property
     def surface(self) -> str:
-        """Its name."""
+        """Name of the surface."""
         return self.assessed.summary.surface

@@ -14,7 +14,7 @@ from inspect_cli.reporting.figures.figure import Json
 from inspect_cli.spatial.arrays import Vector
 
 ROOM = 0.05
-"""Room beyond the outermost values, as a share of their range."""
+"""Margin beyond the outermost values, as a share of their range."""
 
 
 def column(values: Any) -> list[Any]:
@@ -69,7 +69,7 @@ class Axis:
         return np.array([float(self.categories.index(str(c))) for c in cells])
 
     def take(self, places: Vector, *, markers: bool) -> None:
-        """Widen the range by what a trace shows."""
+        """Extend the range to the values of a trace."""
         shown = places[np.isfinite(places)]
         if self.logarithmic:
             shown = shown[shown > 0.0]

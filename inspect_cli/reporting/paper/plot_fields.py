@@ -45,7 +45,7 @@ def field_scale(trace: Json, layout: Json) -> Json:
 
 
 def colour_map(scale: Json) -> ListedColormap:
-    """The colour scale in so many steps that none can be seen."""
+    """The colour scale as a matplotlib colour map with steps too small to be seen."""
     shares = np.linspace(0.0, 1.0, SHADES)
     if scale.get("reversescale"):
         shares = 1.0 - shares

@@ -1,4 +1,5 @@
-"""What stands around the traces: ticks, titles, shaded stretches, remarks, legend, colour bar."""
+"""Everything around the traces: ticks, titles, shaded stretches, annotations, legend, colour
+bar."""
 
 from __future__ import annotations
 
@@ -94,7 +95,7 @@ def plain_frame(ax: Axes) -> None:
 
 
 class Paper:
-    """Plotly's coordinates from 0 to 1 over all panels, movable while the sheet is laid out."""
+    """Plotly's "paper" coordinates from 0 to 1 over all panels; they move with the layout."""
 
     def __init__(self, sheet: Sheet) -> None:
         self.frame = Bbox.unit()
@@ -167,7 +168,7 @@ def _clip(ax: Axes, paper: Paper, x: str, y: str) -> Transform:
 
 
 def add_remark(ax_of: Mapping[tuple[str, str], Axes], paper: Paper, remark: Json) -> None:
-    """A few words at a place, with an arrow if plotly would draw one."""
+    """An annotation at a place, with an arrow if plotly would draw one."""
     ax, x, y = _reference(remark, ax_of)
     font = remark.get("font", {})
     ha = str(remark.get("xanchor", "center")).replace("auto", "center")

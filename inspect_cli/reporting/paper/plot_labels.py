@@ -13,11 +13,12 @@ from matplotlib.transforms import Bbox
 from inspect_cli.reporting.paper.plot_text import label_lines
 
 PT_PER_PX = 0.62
-"""A thousand pixels of a screen are 170 mm of paper, but letters must not shrink that far."""
+"""Points per pixel of letters. A thousand pixels are 170 mm of paper, but letters must not shrink
+as much."""
 LINE_HEIGHT = 1.2
 LEAST_PT = 6.0
 TOUCHING = 0.9
-"""Share of a label's box that has to stay free of others."""
+"""Share of a label's box that no other label may cover."""
 
 
 def points(pixels: float) -> float:
@@ -81,7 +82,7 @@ def write(
 
 
 def thin_out(labels: Sequence[Sequence[Annotation]]) -> None:
-    """Hide each label that would lie upon one before it: none of both could be read."""
+    """Hide each label that would overlap an earlier one: neither could be read."""
     kept: list[Bbox] = []
     for pieces in labels:
         boxes = [piece.get_window_extent() for piece in pieces]

@@ -83,7 +83,7 @@ class Marks:
 
 
 def each(value: Any, n: int) -> list[Any]:
-    """A setting for each of ``n`` points, be it given once or as a column."""
+    """A setting for each of ``n`` points, given once for all or as a column."""
     if isinstance(value, list | tuple | dict):
         cells = column(value)
         return [*cells, *[None] * (n - len(cells))][:n]
@@ -94,7 +94,7 @@ def modes_of(trace: Json) -> set[str]:
     """What a scatter trace draws: lines, markers, text.
 
     Raises:
-        ValueError: it is told to draw something else.
+        ValueError: the mode is none of these.
     """
     default = "lines+markers" if len(column(trace.get("y"))) < 20 else "lines"
     modes = set(str(trace.get("mode", default)).split("+"))
@@ -176,7 +176,7 @@ def draw_markers(ax: Axes, trace: Json, x: Vector, y: Vector) -> None:
 
 
 def legend_handle(trace: Json) -> Line2D:
-    """What stands before the trace's name in the legend."""
+    """The symbol before the trace's name in the legend."""
     if trace["type"] == "bar":
         marker = trace.get("marker", {})
         colour = rgba(str(each(marker.get("color", INK), 1)[0]))

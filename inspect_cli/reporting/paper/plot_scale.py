@@ -1,4 +1,4 @@
-"""Maps to scale: so many metres of a surface to the metre of paper, as a drawing office has it."""
+"""Maps to scale, such as 1 : 50, with a scale bar."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ BAR_HEIGHT_MM = 1.3
 
 @dataclass(frozen=True)
 class MapScale:
-    """One to ``denominator``."""
+    """A scale of 1 to ``denominator``."""
 
     denominator: float
 
@@ -30,12 +30,12 @@ class MapScale:
         return 1e3 * length_m / self.denominator
 
     def words(self) -> Text:
-        """What stands under the map."""
+        """The scale in words, for the caption of the map."""
         return say("Scale 1 : {n}, printed at full size", n=number(self.denominator, 0))
 
 
 def has_equal_scales(layout: Json) -> bool:
-    """Whether the drawing is of a place: a metre is as long across as it is up."""
+    """Whether both axes have the same scale, as in a map."""
     for name, axis in layout.items():
         if name.startswith(("xaxis", "yaxis")) and "scaleanchor" in axis:
             return float(axis.get("scaleratio", 1.0)) == 1.0
@@ -57,7 +57,7 @@ def scale_for(
 
 
 def bar_length_m(scale: MapScale, width_mm: float) -> float:
-    """A round length that makes a handy bar."""
+    """A round length for the scale bar, m."""
     for power in range(-4, 6):
         for m in (1.0, 2.0, 5.0):
             length = m * 10.0**power

@@ -35,7 +35,7 @@ FILL_OPACITY = 0.5
 
 
 def is_shown(trace: Json) -> bool:
-    """Whether a screen draws it before anybody has touched the legend."""
+    """Whether the trace is visible before the reader uses the legend."""
     return trace.get("visible", True) is True
 
 
@@ -184,7 +184,7 @@ def slots(traces: Sequence[Json], layout: Json) -> Iterator[tuple[float, float]]
 
 
 def measure(trace: Json, x_axis: Axis, y_axis: Axis) -> tuple[Vector, Vector]:
-    """Where the points of a trace stand; its axes are widened by them."""
+    """Coordinates of a trace's points; the ranges of its axes are extended to them."""
     x, y = x_axis.places(trace.get("x")), y_axis.places(trace.get("y"))
     if trace["type"] == "bar":
         _take_bars(trace, x, y, x_axis, y_axis)

@@ -1,4 +1,4 @@
-"""Figures on paper: what plotly draws on the screen, drawn once more as SVG.
+"""Figures on paper: plotly's figures drawn as SVG by matplotlib.
 
 The drawing is made of the figure's own traces and layout, so that paper shows what the screen
 shows. Three-dimensional scenes are left to the screen. Where metres are as long across as they
@@ -51,7 +51,7 @@ MM_PER_INCH = 25.4
 LEGEND_GAP_MM = 1.0
 """Above and below the legend."""
 BAR_MM = 12.0
-"""What a colour bar takes below the drawing, its marks included."""
+"""Height of a colour bar below the drawing with its ticks, mm."""
 SCALE_BAR_MM = 9.0
 STYLE: dict[str, Any] = {
     "font.family": ["DejaVu Sans"],
@@ -252,7 +252,7 @@ class _Drawing:
         set_ticks(ax, axis, length_mm, self.language, shown=axis.anchor == across)
 
     def _measured(self, margins: Margins, wide: float, high: float, below_mm: float) -> Margins:
-        """What the words around the panels really take."""
+        """The margins that the text around the panels needs, mm."""
         found = [ax.get_tightbbox() for ax in self.panels.values()]
         boxes = [box for box in found if box is not None]
         left = self._mm(min(box.x0 for box in boxes))
@@ -270,7 +270,7 @@ class _Drawing:
         return float(pixels) / float(self.sheet.dpi) * MM_PER_INCH
 
     def _thin_ticks(self) -> None:
-        """Of ticks' labels that would touch, the later is left out."""
+        """Hide each tick label that would touch the one before it."""
         for ax in [*self.panels.values(), *(bar for bar, _ in self.bars)]:
             last = -np.inf
             for label in ax.get_xticklabels():

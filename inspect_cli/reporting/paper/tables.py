@@ -1,4 +1,4 @@
-"""Tables on paper: how small they are set, how wide each column is, and whether the page turns.
+"""Tables on paper: size of letters, width of columns, upright or landscape page.
 
 The typesetter would give every column its widest line first and leave sentences the rest; here a
 column is never narrower than its longest word, and what room is left goes where lines are long.
@@ -23,17 +23,17 @@ CELL_INSET_MM = {False: 3.2, True: 2.2}
 """Left and right of a cell, together."""
 SIZES = {False: (9.0, 8.0, 7.0), True: (7.5, 7.0, 6.5)}
 PROSE = 22.0
-"""Letters to a line that a sentence needs to be readable."""
+"""Letters per line that a sentence needs to be readable."""
 LONGEST_LINE = 90.0
 NARROW, BROAD = frozenset("iljftrI.,:;'|!()[]-/ "), frozenset("mwMW@%&—…")
 LATIN = 0x2100
 """Beyond this, characters come from broader fonts."""
 BOLDER = 1.1
-"""A heading is broader by its weight."""
+"""Factor by which bold letters are wider."""
 SHORT = 10.0
-"""Letters of a cell that is never broken."""
+"""Longest cell that is never broken, in letters."""
 MARK_LETTERS = 2.4
-"""What the mark before a word takes."""
+"""Width of the mark before a word, in letters."""
 UNBROKEN = 400
 """Letters; a row with a longer cell may be broken over pages, others stay together. A longer
 heading is not repeated on each page, of which it would leave nothing."""
@@ -41,7 +41,7 @@ heading is not repeated on each page, of which it would leave nothing."""
 
 @dataclass(frozen=True)
 class Extent:
-    """Letters on a line of a column: what it needs, and what it could use."""
+    """Letters per line of a column: the least it needs, and the most it could use."""
 
     least: float
     most: float
@@ -146,7 +146,7 @@ def _longest_word(text: str, *, even: bool = False) -> float:
 
 
 def _letters(text: str, *, even: bool = False) -> float:
-    """How wide it is in average letters."""
+    """Width of the text in average letters."""
     if even:
         return float(len(text))
     return sum(

@@ -52,7 +52,7 @@ HALF_PAGE_MM = 82.0
 TALL = 1.3
 """Height over width of a map from which two stand side by side."""
 PICTURE_MM = 120.0
-"""Greatest height of a picture."""
+"""Largest height of a picture, mm."""
 RUNNING_TITLE = 90
 RUNNING_HEADING = 45
 """Characters of the title and of the section at the head of a page."""
@@ -86,7 +86,7 @@ def pdf(document: Document, language: Language, standards: Sequence[str] = ()) -
 
 
 def pages_png(document: Document, language: Language, ppi: float = 110.0) -> list[bytes]:
-    """The pages as pictures, to look at."""
+    """The pages as PNG images."""
     return _compiled(typeset_files(document, language), "png", ppi=ppi)
 
 

@@ -43,7 +43,8 @@ from inspect_cli.reporting.words.text import (
 SEPARATORS = {",": ",\u202f", ".": ".\u202f"}
 """Plotly's signs for decimals and thousands, by the language's decimal sign."""
 TURNING = "\u202a\u202b\u202d\u202e\u2066\u2067\u2068"
-"""Signs that turn the direction of what follows: it must not be our words."""
+"""Characters that reverse the direction of the text after them; they must not reach the report's
+own words."""
 
 
 def html(document: Document, language: Language) -> str:
@@ -58,7 +59,7 @@ def html(document: Document, language: Language) -> str:
 
 
 def inline(text: Text, language: Language) -> Markup:
-    """A piece of text as HTML; what is not ours is escaped."""
+    """A piece of text as HTML; text of users is escaped."""
     match text:
         case str():
             isolated = any(sign in text for sign in TURNING)

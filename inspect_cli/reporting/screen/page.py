@@ -1,4 +1,4 @@
-"""The page around the content: one file that loads nothing."""
+"""The HTML page around the content: one file that loads nothing."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ PLOT_WORDS = (
     say("Snapshot succeeded"),
     say("Sorry, there was a problem downloading your snapshot!"),
 )
-"""What plotly itself says on this page, by the keys of its dictionaries."""
+"""Plotly's own words on this page; the English ones are the keys of its dictionaries."""
 
 
 def page(

@@ -1,4 +1,4 @@
-"""``study.html``: what varied numbers did to a mission, on one page."""
+"""``study.html``: how varied parameters change the metrics of a mission."""
 
 from __future__ import annotations
 
@@ -35,7 +35,7 @@ from inspect_cli.reporting.words.text import (
 from inspect_cli.schema.study import StudyResult, StudyVariant
 
 WHOLE = 100.0
-"""From here on three digits are a whole number."""
+"""From this value on, three significant digits are a whole number."""
 
 
 def study_document(study: StudyResult, explained: Text, figures: Sequence[Figure]) -> Document:

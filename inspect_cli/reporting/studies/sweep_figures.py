@@ -12,7 +12,7 @@ from inspect_cli.reporting.words.text import Text, say, significant, together
 from inspect_cli.schema.study import Quantity, StudyResult, StudyVariant
 
 PREDICTED = "study.lag_contact_rmse_fx_n"
-"""What the observer's lag alone would err by; the study ``force`` computes it."""
+"""Error from the observer's lag alone; the study ``force`` computes it."""
 GAP = 0.09
 """Between panels, as a share of the figure."""
 MARGIN = 1.15
@@ -32,7 +32,7 @@ class Curve:
 
 @dataclass(frozen=True)
 class Level:
-    """A value that a row's curves are held against."""
+    """A horizontal line to compare a row's curves with."""
 
     value: float
     label: Text
@@ -114,7 +114,7 @@ def sweep_panels(study: StudyResult, rows: Sequence[Row]) -> tuple[list[Json], J
 
 
 def error_bars(variants: Sequence[StudyVariant], metric: str, colour: str) -> Json:
-    """What draws a mean's standard errors; nothing for a metric that is no mean."""
+    """Plotly's error bars from standard errors; none for a metric that is not a mean."""
     errors = [variant.standard_errors.get(metric) for variant in variants]
     if all(error is None for error in errors):
         return {}

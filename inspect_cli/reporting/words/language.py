@@ -1,4 +1,4 @@
-"""The languages that a report can be in: words, numbers and enumerations.
+"""Languages of a report: translations, formats of numbers, enumerations.
 
 A catalogue (``languages/<code>.po``) translates the English templates of ``content.say`` and
 ``content.count``. English is its own catalogue. A template without a translation stays English; a

@@ -1,4 +1,4 @@
-"""Points by their labels, as many as a reader takes in."""
+"""Enumerations of point labels, shortened if there are many."""
 
 from __future__ import annotations
 
@@ -8,11 +8,11 @@ from collections.abc import Sequence
 from inspect_cli.reporting.words.text import NOTHING, Listed, Text, count
 
 ALL_NAMED = 12
-"""Up to so many, all are named."""
+"""All labels are shown up to this number."""
 NAMED = 10
-"""Of more, so many."""
+"""Labels shown if there are more than that."""
 SORTED = 1000
-"""Of more than so many, ten at the beginning are examples; they stand as they were read."""
+"""Above this number the first ten labels are shown in the order of reading, unsorted."""
 
 
 def named(labels: Sequence[str]) -> Text:
@@ -28,7 +28,7 @@ def named(labels: Sequence[str]) -> Text:
 
 
 def _counted(label: str) -> list[tuple[int, str]]:
-    """What sorts a label by its numbers, however long, rather than by their first digits."""
+    """Sort key of a label: its digits compare as numbers."""
     parts = re.split(r"([0-9]+)", label)
     digits = [part.lstrip("0") for part in parts]
     return [(len(digits[k]), digits[k]) if k % 2 else (-1, parts[k]) for k in range(len(parts))]

@@ -1,4 +1,4 @@
-"""What the study ``pitch`` comes to, in sentences that ``study.json`` holds in English.
+"""Templates of the findings of the study ``pitch``, which ``study.json`` holds in English.
 
 The study fills these templates, and ``recorded`` knows the sentences again by them.
 """

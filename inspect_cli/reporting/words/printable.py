@@ -1,4 +1,4 @@
-"""Foreign text as paper can show it: one line, no control characters, words that can be broken."""
+"""Text of users made printable: one line, no control characters, long words breakable."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ def printable(text: str) -> str:
 
 
 def shortened(text: str, length: int) -> str:
-    """The text, its end left out where it is longer than that."""
+    """The text, cut off with an ellipsis if it is longer than the given number of letters."""
     return text if len(text) <= length else f"{text[: length - 1]}…"
 
 

@@ -1,4 +1,4 @@
-"""What was published for each row of the ledger that a mission's check may name by ``ref``.
+"""Published values for each row of the ledger that a mission's check may name by ``ref``.
 
 Rows A1 to A9 are the experiments of Bodie et al., "An Omnidirectional Aerial Manipulation
 Platform for Contact-Based Inspection", Robotics: Science and Systems 2019. The words are those
@@ -18,9 +18,9 @@ class Published:
 
     section: str
     words: str
-    """In a sentence without its full stop."""
+    """The published result as a sentence without its full stop."""
     short: str
-    """The number alone, for a narrow table; empty where there is none."""
+    """The number alone, for a narrow table; empty if there is none."""
     table: str = ""
     """Number of the table in the section."""
 

@@ -1,4 +1,4 @@
-"""What results and plans say in our own English, known again so that it can be translated.
+"""Sentences in results and plans, recognised by their templates so that they can be translated.
 
 ``metrics.json`` and ``plan.json`` are written once, in English: why a point is invalid, why a
 metric is not measured, how a flight ended, which class a reading has. A report knows these
@@ -116,7 +116,8 @@ RECORDED: tuple[Said, ...] = (
 
 
 def recorded(text: str) -> Text:
-    """The sentence with its numbers and names, if it is one of ours; else as it stands."""
+    """The sentence with its numbers and names as values, if its template is known; else
+    unchanged."""
     for said, pattern in _patterns():
         found = pattern.fullmatch(text)
         if found:
@@ -139,7 +140,7 @@ def _patterns() -> tuple[tuple[Said, re.Pattern[str]], ...]:
 
 
 def _pattern(template: str) -> re.Pattern[str]:
-    """What matches the template, whatever names and numbers stand in it."""
+    """A regular expression that matches the template with any values."""
     parts = []
     for words, name in pieces(template):
         anything = ".+?" if name in NAMES or name in SENTENCES else "[-+0-9.e]+"

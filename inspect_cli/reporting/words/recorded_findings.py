@@ -1,4 +1,4 @@
-"""What assessments and maps say in our own English; see ``recorded``."""
+"""Sentences of assessments and maps, recognised by their templates; see ``recorded``."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What captions of pictures say in our own English; see ``recorded``."""
+"""Captions of pictures, recognised by their templates; see ``recorded``."""
 
 from __future__ import annotations
 

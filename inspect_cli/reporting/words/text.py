@@ -1,4 +1,4 @@
-"""Pieces of text that belong to no language yet.
+"""Pieces of text before they are put into a language.
 
 A piece is a plain ``str`` if it is somebody else's (a title, a label, a unit, a name): it is shown
 as it is. Whatever the project says itself is ``say("…")``, whatever is a number is ``number(…)`` or
@@ -73,7 +73,7 @@ class Badge:
 
 @dataclass(frozen=True)
 class Link:
-    """A way to another file beside the report."""
+    """A link to another file beside the report."""
 
     text: Text
     href: str
@@ -107,7 +107,7 @@ def number(value: float | None, digits: int) -> Amount:
 
 
 def significant(value: float | None, digits: int = 4) -> Amount:
-    """A number of any size with ``digits`` significant ones."""
+    """A number with ``digits`` significant digits."""
     return Amount(value, digits, significant=True)
 
 
