@@ -9,9 +9,10 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from modes import Mode
 from scenarios import TWO_POINTS, Array, Flown, Scenario
 
-from inspect_cli.records import Mode, Record, State
+from inspect_cli.records import Record, State
 from inspect_cli.simulation.instruments import Instruments
 from inspect_cli.simulation.plant import Plant
 from inspect_cli.simulation.recorder import Recorder

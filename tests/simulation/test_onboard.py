@@ -7,12 +7,13 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from modes import Mode
 from scenarios import TWO_POINTS, Array, Flown, Scenario
 
 from inspect_cli.errors import SchemaError
 from inspect_cli.estimation.observer_lag import first_order_response
 from inspect_cli.metrics.force_sensor import low_pass
-from inspect_cli.records import Mode, Pose
+from inspect_cli.records import Pose
 from inspect_cli.vehicles.fully_actuated.impedance_control import ImpedanceControl
 
 Fly = Callable[[Scenario], Flown]
