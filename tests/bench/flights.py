@@ -18,7 +18,6 @@ import mujoco
 import numpy as np
 from mujoco import rollout
 
-from inspect_cli.autonomy.executive import posture_of
 from inspect_cli.commands.plan import plan_loaded, vehicle_of
 from inspect_cli.log.writer import LogWriter
 from inspect_cli.records import CORE_RECORDS
@@ -104,7 +103,7 @@ class Pair:
         plant.step = remembering
         ending = flight.run()
         log.close(ending.status, ending.reason)
-        plant.place(posture_of(self._plan.start))
+        plant.place(self._plan.start.posture)
         self._model, self._data = plant.model, [mujoco.MjData(plant.model)]
         start = np.empty(mujoco.mj_stateSize(plant.model, STATE))
         mujoco.mj_getState(plant.model, plant.data, start, STATE)
