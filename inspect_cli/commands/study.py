@@ -1,4 +1,4 @@
-"""``inspect study``: one mission with varied numbers, and what that does to its metrics.
+"""``inspect study``: one mission with varied numbers, and their effect on its metrics.
 
 <out>/study-<name>/study.json  study.html
 <out>/study-<name>/<variant>/      an ordinary run of each variant that is flown
@@ -41,13 +41,16 @@ from inspect_cli.schema.result import Metric
 from inspect_cli.schema.study import StudyColumn, StudyResult, StudyVariant
 from inspect_cli.schema.survey import LanguageCode
 
-STUDIES: dict[str, Study] = {"force": FORCE, "pitch": PITCH}
-"""What ``inspect study`` knows, by name."""
+STUDIES: dict[str, Study] = {
+    "force": FORCE,
+    "pitch": PITCH,
+}
+"""Every study by its name: one row each. The command line takes its options from here."""
 
 
 @dataclass(frozen=True)
 class StudyOutcome:
-    """What came out, and where it was written."""
+    """A study's result and its files."""
 
     result: StudyResult
     folder: Path
@@ -130,7 +133,7 @@ def study(
         quantities=tuple(factor.quantity(loaded) for factor in chosen.factors),
         columns=columns,
         variants=tuple(
-            _told(chosen, columns, *each) for each in zip(varied, ends, sampled, strict=True)
+            _row(chosen, columns, *each) for each in zip(varied, ends, sampled, strict=True)
         ),
         trials=sampler.trials if sampler else 0,
         common=dict(sampler.common) if sampler else {},
@@ -149,7 +152,7 @@ def _chosen(name: str, *, fly_sampled: bool) -> Study:
 def _written(
     chosen: Study, result: StudyResult, folder: Path, language: LanguageCode
 ) -> StudyOutcome:
-    """The study's files, with what came out in words."""
+    """Add thresholds and findings to the result and write the study's files."""
     result = chosen.concluded(result) if chosen.concluded else result
     write_model(folder / "study.json", result)
     page = folder / "study.html"
@@ -167,14 +170,14 @@ def _planned(variant: Variant) -> Plan | CoveragePlan:
         raise InfeasibleError(problems) from error
 
 
-def _told(
+def _row(
     study: Study,
     columns: Sequence[StudyColumn],
     variant: Variant,
     end: FlightEnd | None,
     sampled: Sampled | None,
 ) -> StudyVariant:
-    """What the study shows of a variant: of its samples, of its flight, or of both."""
+    """The row of a variant: numbers of its samples, of its flight, or of both."""
     result = end.result if end else None
     missing = Metric(value=None, unit="1", why=(end.error if end else "") or "no such metric")
     known = dict(sampled.metrics) if sampled else {}
@@ -195,7 +198,7 @@ def _told(
 
 
 def _own(study: Study, end: FlightEnd) -> dict[str, Metric]:
-    """The study's own numbers of a flight, from its log."""
+    """The numbers of a flight that the study itself defines, from its log."""
     if end.folder is None or not study.own:
         return {}
     flight = Flight(read_log(log_of(end.folder)))
