@@ -6,17 +6,15 @@ a grid and once as a list with coordinates beside the grid's.
 
 from __future__ import annotations
 
-import subprocess
 import sys
 from collections.abc import Iterator
 from pathlib import Path
 from tempfile import TemporaryDirectory
-from time import perf_counter
 
 import numpy as np
 
 from tests.bench.rows import Row, ratio
-from tests.bench.yardsticks import WORKLOAD, reference_workload_s
+from tests.bench.yardsticks import WORKLOAD, child_s, reference_workload_s
 
 ROWS, COLUMNS, PITCH_M = 250, 400, 0.25
 REGIONS = ((30.0, 20.0, 300.0, 60.0), (70.0, 45.0, 250.0, 40.0))
@@ -41,18 +39,12 @@ def measure() -> Iterator[Row]:
                 name,
                 LIMITS[layout],
                 WORKLOAD,
-                lambda k, command=command: _run_s(command),
+                lambda k, command=command: child_s(command),
                 lambda k: reference_workload_s(),
                 ROUNDS,
             )
             size_mb = 1e-6 * (out / "report.html").stat().st_size
             yield Row(f"readings.{layout}_page_mb", size_mb, "MB", 15.0)
-
-
-def _run_s(command: list[str]) -> float:
-    begun = perf_counter()
-    subprocess.run(command, check=True, capture_output=True)
-    return perf_counter() - begun
 
 
 def _files(folder: Path) -> dict[str, Path]:

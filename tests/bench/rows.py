@@ -2,7 +2,9 @@
 
 Times are stated as ratios. Machines differ by a factor of two to four from day to day, so a time
 is divided by that of a yardstick: work of the same kind by somebody else's code, timed in turns
-with ours in the same run. Where all times of a run grow alike, the ratio stays.
+with ours in the same run. Where all times of a run grow alike, the ratio stays. But for flights
+the times are those of the processor, summed over threads, so that other work on the machine does
+not count.
 
 A limit is at most 1.3 × the ratio that was measured when it was set, and lower than the former
 limit in seconds allowed on that machine.
@@ -95,7 +97,7 @@ def ratio(
     yardstick(0)
     pairs = [(ours(k), yardstick(k)) for k in range(1, 1 + rounds)]
     value = median(a / b for a, b in pairs)
-    times = Times(median(a for a, _ in pairs), median(b for _, b in pairs), "s", what)
+    times = Times(median(a for a, _ in pairs), median(b for _, b in pairs), "CPU s", what)
     return Row(name, value, "1", limit, times=times)
 
 

@@ -8,8 +8,11 @@ the seconds.
 
 from __future__ import annotations
 
+import resource
+import subprocess
 import sys
-from time import perf_counter
+from collections.abc import Mapping, Sequence
+from time import process_time
 
 import numba
 import numpy as np
@@ -23,8 +26,8 @@ COPIES = 8
 
 
 def reference_workload_s() -> float:
-    """Seconds of the fixed workload, on one thread."""
-    begun = perf_counter()
+    """CPU seconds of the fixed workload."""
+    begun = process_time()
     rng = np.random.default_rng(0)
     for _ in range(10):
         np.sort(rng.standard_normal(500_000))
@@ -35,7 +38,7 @@ def reference_workload_s() -> float:
     eye = diags_array([1.0], offsets=[0], shape=(n, n))
     splu((kron(line, eye) + kron(eye, line)).tocsc()).solve(np.ones(n * n))
     ",".join(f"{value:.3f}" for value in places.ravel().tolist())
-    return perf_counter() - begun
+    return process_time() - begun
 
 
 def reference_kernel(rows, rotations, out):
@@ -56,13 +59,21 @@ def reference_kernel(rows, rotations, out):
 
 
 def compilation_s() -> float:
-    """Seconds of the compilations in this process, which must be fresh."""
+    """CPU seconds of the compilations in this process, which must be fresh."""
     kind = np.dtype([("force", np.float64, 3), ("limit", np.float64), ("angle", np.float64)])
     rows, rotations = np.zeros(2, kind), np.zeros((2, 3, 3))
-    begun = perf_counter()
+    begun = process_time()
     for _ in range(COPIES):
         numba.njit(error_model="numpy")(reference_kernel)(rows, rotations, np.zeros((2, 3)))
-    return perf_counter() - begun
+    return process_time() - begun
+
+
+def child_s(command: Sequence[str], environment: Mapping[str, str] | None = None) -> float:
+    """CPU seconds of a fresh process, its own children included; it must succeed."""
+    before = resource.getrusage(resource.RUSAGE_CHILDREN)
+    subprocess.run(command, env=environment, check=True, capture_output=True)
+    after = resource.getrusage(resource.RUSAGE_CHILDREN)
+    return after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime
 
 
 if __name__ == "__main__":

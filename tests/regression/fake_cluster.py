@@ -47,7 +47,7 @@ class ClusterFuture:
 
 
 class FakeCluster:
-    """``breaks_at`` and ``cancels_at`` are numbers of submitted tasks."""
+    """``breaks_at`` and ``cancels_at`` are numbers of submitted tasks, from 0."""
 
     def __init__(
         self, flights: int, breaks_at: int | None = None, cancels_at: int | None = None
@@ -55,10 +55,13 @@ class FakeCluster:
         self._flights, self._breaks_at, self._cancels_at = flights, breaks_at, cancels_at
         self._queued: list[tuple[bytes, ClusterFuture]] = []
         self.shut_down: list[bool] = []
+        self._broken = False
 
     def submit(self, function: Callable[..., Any], *arguments: Any) -> ClusterFuture:
         if self._breaks_at is not None and len(self._queued) > self._breaks_at:
-            self._run()
+            if not self._broken:
+                self._broken = True
+                self._run()
             raise BrokenExecutor("a node is gone")
         future = ClusterFuture()
         self._queued.append((pickle.dumps((function, arguments)), future))
