@@ -19,7 +19,7 @@ from tests.bench.rows import Row, ratio
 ROUNDS = 5
 POINTS, OUTLIER_SHARE, NOISE_M, INLIER_M = 100_000, 0.3, 0.003, 0.02
 DRAWINGS = 100
-LIMITS = {"plane": 1.0, "sphere": 1.0, "cylinder": 1.0}
+LIMITS = {"plane": 0.17, "sphere": 0.28, "cylinder": 0.6}
 
 
 def measure() -> Iterator[Row]:

@@ -29,7 +29,7 @@ def measure(mission: Path) -> Iterator[Row]:
     """The first answer, a cold plan, and what compilation adds to the first flight."""
     yield ratio(
         "cli.help_over_imports",
-        1.0,
+        2.0,
         "an interpreter that imports typer and rich",
         lambda k: _inspect_s("--help"),
         lambda k: _run_s("-c", HELP_IMPORTS),
@@ -38,7 +38,7 @@ def measure(mission: Path) -> Iterator[Row]:
     with TemporaryDirectory() as folder:
         yield ratio(
             "plan.cold_over_imports",
-            1.0,
+            1.75,
             "an interpreter that imports what a plan needs",
             lambda k: _inspect_s("plan", str(mission), "--out", folder),
             lambda k: _run_s("-c", PLAN_IMPORTS),

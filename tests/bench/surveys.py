@@ -30,7 +30,7 @@ def measure(mission: Path) -> Iterator[Row]:
         return process_time() - begun
 
     name = "survey.plan_over_workload"
-    yield ratio(name, 1.0, WORKLOAD, ours_s, lambda k: reference_workload_s(), ROUNDS)
+    yield ratio(name, 2.1, WORKLOAD, ours_s, lambda k: reference_workload_s(), ROUNDS)
     survey = surveyor_of(loaded, vehicle).survey()
     best_m = solver_m(*tips_of(vehicle.capabilities, survey), SOLVER_S)
     yield Row("survey.way_over_solver", survey.tour_m / best_m, "1", 1.10)
