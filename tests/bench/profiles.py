@@ -17,4 +17,9 @@ PROFILES: dict[str, str] = {
         "30, executive 25, filter's prediction 24, log rows 19, pose correction 18, sampling the "
         "IMU 16, reference 15, depth image and surface 26, surroundings 10, commands 6"
     ),
+    "uneven_vault.ratio_to_open_loop": (
+        "586 µs a tick: steps 175, of which placing plates 40; depth image and surface 64, control "
+        "43, observing the state 42, executive 41, filter's prediction 31, surroundings 27, "
+        "sampling the IMU 21, pose correction 21, log rows 20, reference 19, commands 7"
+    ),
 }
