@@ -12,16 +12,16 @@ from example_flights import Flight, spoil
 from report_pages import Reported, decoded, trace
 
 from inspect_cli.records import Estimate, InvalidReason, Mode, Reference, State
-from inspect_cli.reporting.figures_scene import patch_mesh
-from inspect_cli.reporting.points import read_points
-from inspect_cli.reporting.potential_scale import (
+from inspect_cli.reporting.figures.rows import attitude_difference_mrad, held_at, roll_pitch_yaw_deg
+from inspect_cli.reporting.figures.timeline import BUCKETS, thinned, timeline_of
+from inspect_cli.reporting.flight.scene import patch_mesh
+from inspect_cli.reporting.half_cell.points import read_points
+from inspect_cli.reporting.half_cell.potential_scale import (
     colour_scale,
     colours,
     potential_range,
     potentials_of,
 )
-from inspect_cli.reporting.rows import attitude_difference_mrad, held_at, roll_pitch_yaw_deg
-from inspect_cli.reporting.timeline import BUCKETS, thinned, timeline_of
 from inspect_cli.schema.plan import PlannedSurface
 from inspect_cli.spatial.rotations import matrix_to_quaternion, roll_pitch_yaw_matrix
 
