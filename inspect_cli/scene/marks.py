@@ -9,9 +9,10 @@ from typing import Protocol
 import numpy as np
 
 from inspect_cli.log.reader import RunLog
-from inspect_cli.records import Mode, Reading, Reference
+from inspect_cli.records import Reading, Reference
 from inspect_cli.scene.materials import PLANNED, TRACE, Rgba
 from inspect_cli.scene.motion import Motion
+from inspect_cli.schema.modes import Phase
 from inspect_cli.schema.plan import Plan, Target
 from inspect_cli.schema.primitives import primitive_of
 from inspect_cli.schema.result import PointResult, Result
@@ -150,7 +151,7 @@ def _traces(log: RunLog, plan: Plan, motion: Motion) -> list[Mark]:
     rows = log.rows(Reference)
     if rows is None:
         return []
-    sliding = rows[rows["mode"] == Mode.SLIDE]
+    sliding = rows[log.modes().within(rows["mode"], {Phase.CONTACT}, slides=True)]
     sliding = sliding[sliding["t_s"] <= motion.t_s[-1]]
     places = [int(k) for k in motion.at(sliding["t_s"])]
     dots: list[Mark] = []

@@ -5,6 +5,7 @@ from __future__ import annotations
 import flights
 import numpy as np
 import pytest
+from modes import Mode
 from PIL import Image
 
 from inspect_cli.commands.pictures import mark_styles
@@ -13,7 +14,6 @@ from inspect_cli.pictures.direction import direct
 from inspect_cli.pictures.lettering import lettered, png_of
 from inspect_cli.pictures.render import render_pictures
 from inspect_cli.pictures.script import LegendEntry, load_script, save_script
-from inspect_cli.records import Mode
 from inspect_cli.scene.motion import Motion
 from inspect_cli.scene.scene_model import slab
 from inspect_cli.scene.views import framed, in_frame

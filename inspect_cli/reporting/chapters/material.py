@@ -84,4 +84,4 @@ class Material:
     @cached_property
     def timeline(self) -> Timeline:
         """The time axis of figures over the flight, with its contacts."""
-        return timeline_of(rows_of(self.log, Reference), self.plan)
+        return timeline_of(rows_of(self.log, Reference), self.plan, self.log.modes())

@@ -8,10 +8,11 @@ meaning is shown by colour alone: lines differ in dash, classes in marker shape,
 from __future__ import annotations
 
 from dataclasses import dataclass
+from itertools import cycle
 from typing import Any
 
-from inspect_cli.records import Mode
 from inspect_cli.reporting.words.text import Text, number, say
+from inspect_cli.schema.modes import ModeTable, Phase
 
 INK = "#1f2328"
 MUTED = "#59636e"
@@ -90,19 +91,26 @@ CORROSION_STYLES = {
 }
 INVALID_STYLE = ClassStyle(say("invalid reading"), INK, "x-thin")
 
-MODE_COLOURS = {
-    Mode.IDLE: "#c4ccd4",
-    Mode.TAKEOFF: "#8c96a0",
-    Mode.TRANSIT: SKY_BLUE,
-    Mode.HOLD: GREEN,
-    Mode.APPROACH: BLUE,
-    Mode.PRESS: INK,
-    Mode.SLIDE: PURPLE,
-    Mode.RETREAT: BLUE,
-    Mode.LAND: "#8c96a0",
-    Mode.LANDED: "#c4ccd4",
-    Mode.HOVER: VERMILION,
+PHASE_COLOURS: dict[Phase, tuple[str, ...]] = {
+    Phase.GROUND: ("#c4ccd4",),
+    Phase.NEAR_GROUND: ("#8c96a0",),
+    Phase.FREE: (SKY_BLUE, GREEN),
+    Phase.NEAR: (BLUE,),
+    Phase.CONTACT: (INK, PURPLE),
+    Phase.PERCHED: (ORANGE,),
+    Phase.SAFE: (VERMILION,),
 }
+"""Colours of a phase's modes, in the order of the vehicle's table, and from the first again."""
+
+
+def mode_colours(modes: ModeTable) -> dict[str, str]:
+    """The colour of each mode, by its name."""
+    colours: dict[str, str] = {}
+    for phase, of_phase in PHASE_COLOURS.items():
+        names = [row.name for row in modes.modes if row.phase is phase]
+        colours |= dict(zip(names, cycle(of_phase), strict=False))
+    return colours
+
 
 POTENTIAL_STOPS = {
     "passive": ("#edf5fb", "#93c7ea"),

@@ -7,22 +7,16 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from inspect_cli.records import Mode
 from inspect_cli.reporting.figures.figure import Figure, Json, merged, numbers, words
 from inspect_cli.reporting.figures.palette import CONTACT_SHADE, MUTED, LineStyle
 from inspect_cli.reporting.words.text import Text, say
+from inspect_cli.schema.modes import OFF_GROUND, ModeTable, Phase
 from inspect_cli.schema.plan import Plan
 from inspect_cli.spatial.arrays import Mask, Structured, Vector
 
 BUCKETS = 800
 """Buckets per line; each keeps its smallest and largest sample. About one per pixel."""
 MAX_LABELLED_PHASES = 40
-OFF_GROUND = (
-    *(Mode.TRANSIT, Mode.HOLD, Mode.APPROACH, Mode.PRESS, Mode.SLIDE, Mode.RETREAT),
-    Mode.HOVER,
-)
-PRESSED = (Mode.PRESS, Mode.SLIDE)
-"""Modes of a contact, from the press to the end of the slide if there is one."""
 LARGEST_DRAWN = 1e6
 """Larger values come from a diverged simulation; an axis that includes them shows nothing else."""
 TIME = say("time (s)")
@@ -32,7 +26,7 @@ BOTTOM_PX = 44
 
 
 @dataclass(frozen=True)
-class Phase:
+class Span:
     """A stretch of time in contact, and the label of the point that was touched."""
 
     start_s: float
@@ -53,7 +47,7 @@ class Mark:
 class Timeline:
     """The common time axis of figures: contacts, drawn window, time off the ground."""
 
-    phases: tuple[Phase, ...] = ()
+    phases: tuple[Span, ...] = ()
     """The contacts, or other stretches to shade."""
     off_ground_s: tuple[float, float] | None = None
     """From the end of the take-off to the beginning of the landing."""
@@ -114,36 +108,36 @@ def thinned(t_s: Vector, values: Vector) -> tuple[Vector, Vector]:
     return t_s[keep], values[keep]
 
 
-def timeline_of(reference: Structured | None, plan: Plan) -> Timeline:
+def timeline_of(reference: Structured | None, plan: Plan, modes: ModeTable) -> Timeline:
     """Contacts and time off the ground, by the modes of the mission executive."""
     if reference is None:
         return Timeline()
-    return Timeline(_contact_phases(reference, plan), _off_ground_s(reference))
+    return Timeline(_contact_phases(reference, plan, modes), _off_ground_s(reference, modes))
 
 
-def _off_ground_s(reference: Structured) -> tuple[float, float] | None:
+def _off_ground_s(reference: Structured, modes: ModeTable) -> tuple[float, float] | None:
     """From the end of the take-off to the landing, or the take-off if nothing came after it."""
-    for modes in (OFF_GROUND, (Mode.TAKEOFF,)):
-        rows = np.flatnonzero(np.isin(reference["mode"], modes))
-        if len(rows) == 0:
-            continue
-        down = np.isin(reference["mode"][rows[0] :], (Mode.LAND, Mode.LANDED))
-        end = rows[0] + int(np.argmax(down)) - 1 if down.any() else rows[-1]
-        return float(reference["t_s"][rows[0]]), float(reference["t_s"][end])
-    return None
+    t_s, mode = reference["t_s"], reference["mode"]
+    rows = np.flatnonzero(modes.within(mode, OFF_GROUND | {Phase.SAFE}))
+    if len(rows) == 0:
+        rows = np.flatnonzero(modes.within(mode, {Phase.NEAR_GROUND}))
+        return (float(t_s[rows[0]]), float(t_s[rows[-1]])) if len(rows) else None
+    low = modes.within(mode[rows[0] :], {Phase.NEAR_GROUND, Phase.GROUND})
+    end = rows[0] + int(np.argmax(low)) - 1 if low.any() else rows[-1]
+    return float(t_s[rows[0]]), float(t_s[end])
 
 
-def _contact_phases(reference: Structured, plan: Plan) -> tuple[Phase, ...]:
+def _contact_phases(reference: Structured, plan: Plan, modes: ModeTable) -> tuple[Span, ...]:
     """The stretches in which the executive was pressing, with the label of their point."""
     t_s = reference["t_s"]
     labels = {target.index: target.label for target in plan.targets}
     return tuple(
-        Phase(
+        Span(
             float(t_s[first]),
             float(t_s[min(end, len(t_s) - 1)]),
             labels.get(int(reference["target"][first]), ""),
         )
-        for first, end in stretches(np.isin(reference["mode"], PRESSED))
+        for first, end in stretches(modes.within(reference["mode"], {Phase.CONTACT}))
     )
 
 
@@ -243,7 +237,7 @@ def _value_range(lines: Sequence[Line], window_s: tuple[float, float]) -> Json:
     return {"range": [low - room, high + room]}
 
 
-def _shade(phase: Phase) -> Json:
+def _shade(phase: Span) -> Json:
     return {
         "type": "rect",
         "xref": "x",
@@ -288,7 +282,7 @@ def _label(text: Text, t_s: float) -> Json:
     }
 
 
-def _phase_labels(phases: Sequence[Phase]) -> list[Json]:
+def _phase_labels(phases: Sequence[Span]) -> list[Json]:
     if len(phases) > MAX_LABELLED_PHASES:
         return []
     return [_label(phase.label, 0.5 * (phase.start_s + phase.end_s)) for phase in phases]

@@ -13,7 +13,7 @@ import numpy as np
 
 from inspect_cli.metrics.drawing import Repeat, repeats
 from inspect_cli.metrics.flight import Flight, NotMeasured, Rows
-from inspect_cli.records import Estimate, Mode
+from inspect_cli.records import Estimate
 from inspect_cli.reporting.figures.figure import Figure, Json, numbers
 from inspect_cli.reporting.figures.palette import REFERENCE, LineStyle, trial_style
 from inspect_cli.reporting.figures.rows import attitude_difference_mrad
@@ -21,7 +21,7 @@ from inspect_cli.reporting.figures.timeline import (
     Line,
     Mark,
     Panel,
-    Phase,
+    Span,
     Timeline,
     alike,
     stacked,
@@ -29,6 +29,7 @@ from inspect_cli.reporting.figures.timeline import (
 )
 from inspect_cli.reporting.flight.scene import FAR_M
 from inspect_cli.reporting.words.text import count, number, say, sentences, together
+from inspect_cli.schema.modes import Phase
 from inspect_cli.schema.plan import Plan, Target
 from inspect_cli.schema.primitives import primitive_of
 from inspect_cli.spatial.arrays import Points, Vector
@@ -82,8 +83,8 @@ def trials_of(flight: Flight, drawing: int) -> list[Trial]:
 
 
 def _sliding(flight: Flight, target: Target) -> Rows:
-    mode, at_hand = flight.reference["mode"], flight.reference["target"]
-    rows: Rows = np.flatnonzero((mode == Mode.SLIDE) & (at_hand == target.index))
+    at_hand = flight.reference["target"] == target.index
+    rows: Rows = np.flatnonzero(flight.during(Phase.CONTACT, slides=True) & at_hand)
     return rows
 
 
@@ -327,7 +328,7 @@ def _timeline(trial: Trial, t_s: Vector) -> Timeline:
         inside = np.zeros(len(t_s), bool)
         inside[rows] = True
         for first, end in stretches(inside):
-            phases.append(Phase(float(t_s[first]) - start, float(t_s[end - 1]) - start, ""))
+            phases.append(Span(float(t_s[first]) - start, float(t_s[end - 1]) - start, ""))
     marks = (Mark(0.0, "(a)"), Mark(trial.end_s(t_s) - start, "(b)"))
     title = say("time since the first touch of the trial (s)")
     return Timeline(phases=tuple(phases), marks=marks, title=title, of_the_log=False)

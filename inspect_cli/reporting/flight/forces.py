@@ -10,7 +10,6 @@ from inspect_cli.log.reader import RunLog
 from inspect_cli.records import (
     Command,
     Estimate,
-    Mode,
     Probe,
     Reference,
     State,
@@ -30,10 +29,10 @@ from inspect_cli.reporting.figures.palette import (
 from inspect_cli.reporting.figures.rows import held_at, rows_of, turned_to_world
 from inspect_cli.reporting.figures.timeline import Line, Panel, Timeline, stacked
 from inspect_cli.reporting.words.text import Text, say, together
+from inspect_cli.schema.modes import AT_SURFACE, ModeTable
 from inspect_cli.schema.plan import Plan
 from inspect_cli.spatial.arrays import Points, Structured, Vector
 
-AT_A_SURFACE = (Mode.APPROACH, Mode.PRESS, Mode.SLIDE, Mode.RETREAT)
 FORCE = (
     say(
         "External force about the body's origin, in the body frame: observer against truth. "
@@ -159,18 +158,21 @@ def _normal_forces(log: RunLog, plan: Plan) -> list[Line]:
     if state is not None:
         lines.append(Line(state["t_s"], state["f_normal"], TRUTH))
     if estimate is not None and reference is not None:
-        force = _felt_normal_force(estimate, held_at(reference, estimate["t_s"]), plan)
+        held = held_at(reference, estimate["t_s"])
+        force = _felt_normal_force(estimate, held, plan, log.modes())
         lines.append(Line(estimate["t_s"], force, ESTIMATE))
     return lines
 
 
-def _felt_normal_force(estimate: Structured, reference: Structured, plan: Plan) -> Vector:
+def _felt_normal_force(
+    estimate: Structured, reference: Structured, plan: Plan, modes: ModeTable
+) -> Vector:
     """n_Wᵀ R_WB f̂_B with the planned normal of the target at hand; NaN away from surfaces."""
     normals = np.full((len(plan.targets) + 1, 3), np.nan)  # the last row answers for target −1
     for k, target in enumerate(plan.targets):
         normals[k] = target.n_W
     at_hand = np.clip(reference["target"].astype(int), -1, len(plan.targets) - 1)
-    near = np.isin(reference["mode"], AT_A_SURFACE)
+    near = modes.within(reference["mode"], AT_SURFACE)
     n_W = np.where(near[:, None], normals[at_hand], np.nan)
     f_W = turned_to_world(estimate["q_WB"], estimate["wrench_B"][:, :3])
     force: Vector = np.einsum("ij,ij->i", n_W, f_W)

@@ -5,30 +5,32 @@ from __future__ import annotations
 import numpy as np
 
 from inspect_cli.log.reader import RunLog
-from inspect_cli.records import Mode, Reference
+from inspect_cli.records import Reference
 from inspect_cli.reporting.figures.figure import Figure, Json, numbers, words
-from inspect_cli.reporting.figures.palette import INK, MODE_COLOURS, MUTED, VERMILION
+from inspect_cli.reporting.figures.palette import INK, MUTED, VERMILION, mode_colours
 from inspect_cli.reporting.figures.rows import rows_of
 from inspect_cli.reporting.flight.events_table import QUIET_LEVELS
 from inspect_cli.reporting.words.recorded import recorded
-from inspect_cli.reporting.words.text import say, together
+from inspect_cli.reporting.words.text import Text, say, together
+from inspect_cli.schema.modes import ModeTable
 from inspect_cli.spatial.arrays import Structured
 
 ROW_PX = 24
 EVENTS_ROW = say("EVENTS")
 MODE_NAMES = {
-    Mode.IDLE: say("IDLE"),
-    Mode.TAKEOFF: say("TAKEOFF"),
-    Mode.TRANSIT: say("TRANSIT"),
-    Mode.HOLD: say("HOLD"),
-    Mode.APPROACH: say("APPROACH"),
-    Mode.PRESS: say("PRESS"),
-    Mode.SLIDE: say("SLIDE"),
-    Mode.RETREAT: say("RETREAT"),
-    Mode.LAND: say("LAND"),
-    Mode.LANDED: say("LANDED"),
-    Mode.HOVER: say("HOVER"),
+    "idle": say("IDLE"),
+    "takeoff": say("TAKEOFF"),
+    "transit": say("TRANSIT"),
+    "hold": say("HOLD"),
+    "approach": say("APPROACH"),
+    "press": say("PRESS"),
+    "slide": say("SLIDE"),
+    "retreat": say("RETREAT"),
+    "land": say("LAND"),
+    "landed": say("LANDED"),
+    "hover": say("HOVER"),
 }
+"""Words for modes that several vehicles have; another mode is called by its own name."""
 
 
 def modes_figure(log: RunLog) -> Figure | None:
@@ -36,12 +38,15 @@ def modes_figure(log: RunLog) -> Figure | None:
     reference = rows_of(log, Reference)
     if reference is None:
         return None
-    stretches = _stretches(reference)
-    flown = [mode for mode in Mode if any(m == mode for m, _, _ in stretches)]
+    table = log.modes()
+    stretches = _stretches(reference, table)
+    flown = [row.name for row in table.modes if any(name == row.name for name, _, _ in stretches)]
+    colours = mode_colours(table)
     traces: list[Json] = [
-        _bars(mode, [(start, end) for m, start, end in stretches if m == mode]) for mode in flown
+        _bars(name, colours[name], [(start, end) for m, start, end in stretches if m == name])
+        for name in flown
     ]
-    rows = [MODE_NAMES[mode] for mode in flown]
+    rows = [_word(name) for name in flown]
     if log.events:
         traces.append(_events(log))
         rows.append(EVENTS_ROW)
@@ -74,33 +79,34 @@ def modes_figure(log: RunLog) -> Figure | None:
     )
 
 
-def _stretches(reference: Structured) -> list[tuple[Mode, float, float]]:
-    """(mode, from, to) of every stretch in one mode."""
+def _word(mode: str) -> Text:
+    return MODE_NAMES.get(mode, mode.replace("_", " ").upper())
+
+
+def _stretches(reference: Structured, table: ModeTable) -> list[tuple[str, float, float]]:
+    """(mode's name, from, to) of every stretch in one mode."""
     t_s, mode = reference["t_s"], reference["mode"]
     starts = np.concatenate([[0], np.flatnonzero(np.diff(mode)) + 1])
     ends = np.concatenate([starts[1:], [len(mode) - 1]])
-    known = {int(m) for m in Mode}
     return [
-        (Mode(int(mode[a])), float(t_s[a]), float(t_s[b]))
+        (table.by_number[int(mode[a])].name, float(t_s[a]), float(t_s[b]))
         for a, b in zip(starts, ends, strict=True)
-        if mode[a] in known
+        if mode[a] in table.by_number
     ]
 
 
-def _bars(mode: Mode, spans: list[tuple[float, float]]) -> Json:
+def _bars(mode: str, colour: str, spans: list[tuple[float, float]]) -> Json:
     starts = np.array([start for start, _ in spans])
     ends = np.array([end for _, end in spans])
     return {
         "type": "bar",
         "orientation": "h",
-        "y": [MODE_NAMES[mode]] * len(spans),
+        "y": [_word(mode)] * len(spans),
         "base": numbers(starts),
         "x": numbers(ends - starts),
         "customdata": numbers(ends),
-        "marker": {"color": MODE_COLOURS[mode], "line": {"width": 0}},
-        "hovertemplate": together(
-            MODE_NAMES[mode], " %{base:.2f} – %{customdata:.2f} s<extra></extra>"
-        ),
+        "marker": {"color": colour, "line": {"width": 0}},
+        "hovertemplate": together(_word(mode), " %{base:.2f} – %{customdata:.2f} s<extra></extra>"),
     }
 
 

@@ -32,7 +32,7 @@ from inspect_cli.reporting.figures.rows import (
 from inspect_cli.reporting.figures.timeline import (
     Line,
     Panel,
-    Phase,
+    Span,
     Timeline,
     alike,
     stacked,
@@ -64,7 +64,7 @@ ATTITUDE = (
 )
 
 
-def pull_phases(log: RunLog) -> tuple[Phase, ...]:
+def pull_phases(log: RunLog) -> tuple[Span, ...]:
     """The times of the pulls with their numbers; none in a log without a cord."""
     felt = rows_of(log, TrueDisturbance)
     if felt is None:
@@ -74,11 +74,11 @@ def pull_phases(log: RunLog) -> tuple[Phase, ...]:
     for k in np.unique(pull[pull > 0.0]):
         for first, end in stretches(pull == k):
             until = float(t_s[min(end, len(t_s) - 1)])
-            found.append(Phase(float(t_s[first]), until, f"{int(k)}"))
+            found.append(Span(float(t_s[first]), until, f"{int(k)}"))
     return tuple(sorted(found, key=lambda phase: phase.start_s))
 
 
-def pull_figures(log: RunLog, phases: Sequence[Phase]) -> list[Figure]:
+def pull_figures(log: RunLog, phases: Sequence[Span]) -> list[Figure]:
     """Position above force, attitude above torque; nothing without pulls."""
     moved = _moved(log)
     if not phases or moved is None:

@@ -13,7 +13,7 @@ import numpy as np
 from inspect_cli.metrics.flight import Flight, NotMeasured, Rows
 from inspect_cli.metrics.geometry import rotation_vectors, turned_by
 from inspect_cli.metrics.slide import Slide, slides
-from inspect_cli.records import Estimate, Mode, SurfaceEstimate, TrueContact
+from inspect_cli.records import Estimate, SurfaceEstimate, TrueContact
 from inspect_cli.reporting.figures.figure import Figure, Json, numbers
 from inspect_cli.reporting.figures.palette import (
     ESTIMATE,
@@ -24,9 +24,10 @@ from inspect_cli.reporting.figures.palette import (
     LineStyle,
 )
 from inspect_cli.reporting.figures.rows import turned_to_body, turned_to_world
-from inspect_cli.reporting.figures.timeline import Line, Mark, Panel, Phase, Timeline, stacked
+from inspect_cli.reporting.figures.timeline import Line, Mark, Panel, Span, Timeline, stacked
 from inspect_cli.reporting.flight.drawing import extent
 from inspect_cli.reporting.words.text import say, together
+from inspect_cli.schema.modes import AT_SURFACE
 from inspect_cli.spatial.arrays import Points, Structured, Vector
 
 ARROW_EVERY_S = 0.2
@@ -70,9 +71,8 @@ def servoing_figures(flight: Flight, number: int, slide: Slide) -> list[Figure]:
 
 def _busy(flight: Flight, slide: Slide) -> Rows:
     """Rows from the approach to the retreat of a slide."""
-    mode, at_hand = flight.reference["mode"], flight.reference["target"]
-    busy = (mode >= Mode.APPROACH) & (mode <= Mode.RETREAT)
-    rows: Rows = np.flatnonzero(busy & (at_hand == slide.target.index))
+    at_hand = flight.reference["target"] == slide.target.index
+    rows: Rows = np.flatnonzero(flight.during(*AT_SURFACE) & at_hand)
     return rows
 
 
@@ -210,7 +210,7 @@ def _over_time(flight: Flight, number: int, slide: Slide) -> Figure:
     busy = t_s[_busy(flight, slide)]
     moving, contact = t_s[slide.moving], t_s[slide.contact]
     timeline = Timeline(
-        phases=(Phase(float(contact[0]), float(contact[-1]), ""),),
+        phases=(Span(float(contact[0]), float(contact[-1]), ""),),
         marks=(
             Mark(float(moving[0]), say("moves"), "right"),
             Mark(float(moving[-1]), say("stops"), "left"),

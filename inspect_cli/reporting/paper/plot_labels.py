@@ -17,7 +17,7 @@ PT_PER_PX = 0.62
 as much."""
 LINE_HEIGHT = 1.2
 LEAST_PT = 6.0
-TOUCHING = 0.9
+KEPT_SHARE = 0.9
 """Share of a label's box that no other label may cover."""
 
 
@@ -88,7 +88,7 @@ def thin_out(labels: Sequence[Sequence[Annotation]]) -> None:
         boxes = [piece.get_window_extent() for piece in pieces]
         if not boxes:
             continue
-        own = Bbox.union(boxes).shrunk(TOUCHING, TOUCHING)
+        own = Bbox.union(boxes).shrunk(KEPT_SHARE, KEPT_SHARE)
         if any(own.overlaps(other) for other in kept):
             for piece in pieces:
                 piece.set_visible(False)

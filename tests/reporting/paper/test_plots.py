@@ -52,7 +52,7 @@ def figures() -> dict[str, Figure]:
     result = evaluation.result
     points = read_points(result, flight.plan)
     (evaluated,) = with_maps(evaluation.assessed)
-    timeline = timeline_of(rows_of(log, Reference), flight.plan)
+    timeline = timeline_of(rows_of(log, Reference), flight.plan, log.modes())
     found = [
         map_figure(0, evaluated, shared_range([evaluated]), {}),
         error_figure(0, evaluated),

@@ -9,6 +9,7 @@ from collections.abc import Callable
 import numpy as np
 import pytest
 from example_flights import Flight, spoil
+from modes import Mode
 from plotly.offline import get_plotlyjs
 from report_pages import Page, Reported, decoded
 
@@ -19,7 +20,6 @@ from inspect_cli.records import (
     Command,
     Estimate,
     InvalidReason,
-    Mode,
     Probe,
     Reading,
     Reference,
