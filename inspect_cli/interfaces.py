@@ -1,4 +1,4 @@
-"""What the rooms ask of each other: a vehicle's Capabilities, its FlightStack, a Sensor.
+"""What the rooms ask of each other: a vehicle's Capabilities, its FlightStack.
 
 Planning, guidance and autonomy know a vehicle through these alone, so that a rigid tilt-rotor,
 an articulated arm and a perching manipulator are planned and flown by the same code.
@@ -11,7 +11,7 @@ from typing import Protocol
 
 import numpy as np
 
-from inspect_cli.records import Command, Estimate, Imu, Lengths, Pose, Record, Reference, State
+from inspect_cli.records import Command, Estimate, Imu, Lengths, Pose, Reference
 from inspect_cli.spatial.arrays import Matrix, Points, Vector
 
 
@@ -126,17 +126,4 @@ class FlightStack(Protocol):
 
     def control(self, reference: Reference, flying: bool) -> None:
         """Write the command that follows the reference; motors idle when not ``flying``."""
-        ...
-
-
-class Sensor(Protocol):
-    """A simulated instrument. It reads the truth and writes its own measurement."""
-
-    @property
-    def measurement(self) -> Record:
-        """The record that ``sample`` fills."""
-        ...
-
-    def sample(self, state: State) -> None:
-        """Measure now."""
         ...

@@ -7,13 +7,16 @@ The image is upright when the vehicle looks ahead along a level tool: columns co
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 
 from inspect_cli.compiled import kernel
-from inspect_cli.records import State
+from inspect_cli.records import DepthImage
 from inspect_cli.schema.vehicle import TofModel
 from inspect_cli.spatial.arrays import Matrix, Points, Vector
 from inspect_cli.spatial.rotations import quaternion_to_matrix, rotate
+from inspect_cli.truth.snapshot import Truth
 from inspect_cli.truth.solids import Solids, cast
 
 
@@ -51,9 +54,16 @@ class TofCamera:
         self._noise = np.empty(n_rays)
         self.points_D = np.full((n_rays, 3), np.nan)
         """The measured points (rows · columns, 3), m, in D; NaN for pixels without a return."""
+        self._image = DepthImage(0.0, self.points_D.reshape(model.rows, model.columns, 3))
 
-    def sample(self, state: State) -> None:
+    @property
+    def measurement(self) -> DepthImage:
+        """The last image."""
+        return self._image
+
+    def sample(self, truth: Truth) -> DepthImage:
         """Fill ``points_D`` from the true pose of body and tool."""
+        state = truth.state
         p_WD = state.p_WB + rotate(state.q_WB, self._p_BD)
         _turn_rays(quaternion_to_matrix(state.q_WT), self._rays_D, self._rays_W)
         nearest, farthest = self.model.range_m
@@ -68,6 +78,8 @@ class TofCamera:
             self._rays_D,
             self.points_D,
         )
+        self._image = replace(self._image, t_s=state.t_s)
+        return self._image
 
 
 @kernel

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from functools import partial
 from time import perf_counter
 
 import numpy as np
@@ -17,7 +18,7 @@ from inspect_cli.guidance.local_surface import LocalSurface
 from inspect_cli.guidance.pursuit import Pursuit
 from inspect_cli.interfaces import Posture
 from inspect_cli.log.writer import LogWriter
-from inspect_cli.records import State, SurfaceEstimate
+from inspect_cli.records import DepthImage, Imu, Odometry, Pose, Probe, SurfaceEstimate
 from inspect_cli.schema.plan import Plan, Target
 from inspect_cli.schema.positioning import Estimation
 from inspect_cli.schema.primitives import primitive_of
@@ -25,7 +26,7 @@ from inspect_cli.schema.result import Status
 from inspect_cli.schema.truth import TruthModel
 from inspect_cli.sensing.reading import ReadingJudge
 from inspect_cli.simulation.clock import Clock, Tick
-from inspect_cli.simulation.instruments import Instruments
+from inspect_cli.simulation.mounts import Listener, Mount, mounts_of, named
 from inspect_cli.simulation.plant import Plant
 from inspect_cli.simulation.randomness import component_rng
 from inspect_cli.simulation.recorder import Recorder
@@ -34,10 +35,13 @@ from inspect_cli.spatial.arrays import Matrix, Vector
 from inspect_cli.spatial.rotations import rotate
 from inspect_cli.truth.contact import ContactTruth
 from inspect_cli.truth.disturbances import Disturbances
-from inspect_cli.truth.faults import Faults
 from inspect_cli.truth.geometry import StructureTruth
 from inspect_cli.truth.proximity import Proximity
+from inspect_cli.truth.snapshot import Truth
 from inspect_cli.vehicles.kinds import Vehicle
+
+PROGRESS_S = 0.1
+"""Between two calls of ``progress``."""
 
 
 @dataclass(frozen=True)
@@ -82,15 +86,10 @@ class Flight:
         )
         self.plan = plan
         self.contact = ContactTruth(structure)
-        faults = Faults(truth.faults)
-        self.instruments = Instruments(
-            platform,
-            structure,
-            faults,
-            seed,
-            estimation,
-            truth.platform.odometry_drift_mps,
-        )
+        state = self.plant.state
+        self.truth = Truth(state, partial(self.contact.update, state), self.plant.wall_wrench)
+        reads = any(target.sensor is not None for target in plan.targets)
+        self.mounts = mounts_of(platform, structure, truth, seed, estimation, reads)
         self.stack = vehicle.flight_stack(estimation)
         believed = {surface.name: primitive_of(surface.shape) for surface in plan.surfaces}
         self.guidance = Pursuit(vehicle.capabilities, posture_of(plan.start), believed)
@@ -110,24 +109,17 @@ class Flight:
             self.contact.contact,
             self.guidance.reference,
             self.stack,
-            self.instruments,
+            [m.sensor.measurement for m in self.mounts if isinstance(m.sensor.measurement, Imu)],
             disturbances.load.record if truth.loads_depend_on_the_flight else None,
         )
-        _, pose_hz = platform.positioning(estimation)
-        due = {
-            "imu": rates.imu_hz,
-            "pose": pose_hz,
-            "tof": rates.tof_hz,
+        for mount in self.mounts:
+            mount.listeners = self._listeners(mount)
+        due = {mount.name: mount.rate_hz for mount in self.mounts} | {
             "mission": rates.mission_hz,
             "guidance": rates.guidance_hz,
             "control": rates.control_hz,
             "log": rates.log_hz,
         }
-        if any(target.sensor is not None for target in plan.targets):
-            due["probe"] = rates.probe_hz
-        for surface in structure.surfaces:
-            if surface.force_sensor is not None:
-                due["wall"] = surface.force_sensor.rate_hz
         self.clock = Clock(rates.physics_hz, due)
         self._limit_s = limit_s + 60.0
 
@@ -139,10 +131,12 @@ class Flight:
         if not self._start_stack():
             self.executive.give_up("aborted", "no pose measurement to start from")
             return Ending("aborted", self.executive.reason, t_s, perf_counter() - begun, 0.0)
+        report_s = 0.0
         for tick in self.clock.ticks(self._limit_s):
             t_s = tick.t_s
             self._tick(tick)
-            if progress is not None and "tof" in tick.due:
+            if progress is not None and t_s >= report_s:
+                report_s += PROGRESS_S
                 progress(t_s)
             if self.executive.finished:
                 break
@@ -154,9 +148,10 @@ class Flight:
 
     def _start_stack(self) -> bool:
         """Begin the estimate at the first pose measurement, if there is one."""
-        heard = self.instruments.sample_pose(self.plant.state)
-        pose = self.instruments.pose.measurement
-        if not (heard and np.isfinite(pose.p_WB).all() and np.isfinite(pose.q_WB).all()):
+        pose = named(self.mounts, "pose", "odometry").sample(self.truth)
+        if not isinstance(pose, Pose):
+            return False
+        if not (np.isfinite(pose.p_WB).all() and np.isfinite(pose.q_WB).all()):
             return False
         self.stack.start(pose)
         return True
@@ -164,16 +159,10 @@ class Flight:
     def _tick(self, tick: Tick) -> None:
         due, plant, stack = tick.due, self.plant, self.stack
         state = plant.observe(tick.t_s)
-        if "imu" in due and self.instruments.sample_imu(state):
-            stack.on_imu(self.instruments.imu.measurement)
-        if "pose" in due:
-            self._correct_estimate(tick.t_s, state)
-        if "wall" in due:
-            self._feel_wall(tick.t_s)
-        if "tof" in due and self.instruments.sample_tof(state):
-            self._see_surface(tick.t_s)
-        if "probe" in due:
-            self._sample_probe()
+        for mount in self.mounts:
+            if mount.name in due and (measurement := mount.sample(self.truth)) is not None:
+                for listener in mount.listeners:
+                    listener(measurement)
         if "guidance" in due and self.executive.watches_surface:
             self.guidance.observe(tick.t_s, self.surface)
         if "mission" in due:
@@ -189,36 +178,34 @@ class Flight:
             self.contact.update(state)
             self.recorder.rows(tick.t_s)
 
-    def _feel_wall(self, t_s: float) -> None:
-        block = self.instruments.sample_wall(t_s, self.plant.wall_wrench())
-        if block is not None:
-            self.recorder.row(block)
+    def _listeners(self, mount: Mount) -> tuple[Listener, ...]:
+        """Who hears a sensor, by what it returns; what nobody here knows is logged."""
+        heard_by: dict[type, tuple[Listener, ...]] = {
+            Imu: (self.stack.on_imu,),  # logged with the other channels at the log's rate
+            Pose: (self._correct_estimate,),
+            Odometry: (self.recorder.row, self._correct_estimate),
+            DepthImage: (self._see_surface,),
+            Probe: (self._take_probe_sample, self.recorder.row),
+        }
+        return heard_by.get(type(mount.sensor.measurement), (self.recorder.row,))
 
-    def _correct_estimate(self, t_s: float, state: State) -> None:
-        heard = self.instruments.sample_pose(state)
-        if heard and self.instruments.odometry is not None:
-            self.recorder.row(self.instruments.odometry.measurement)
-        if heard and self.stack.on_pose(self.instruments.pose.measurement):
-            self.executive.heard_pose(t_s)
+    def _correct_estimate(self, pose: Pose) -> None:
+        if self.stack.on_pose(pose):
+            self.executive.heard_pose(pose.t_s)
 
-    def _see_surface(self, t_s: float) -> None:
-        """Turn the depth image into a surface estimate."""
-        estimate, points_D = self.stack.estimate, self.instruments.tof.points_D
+    def _see_surface(self, image: DepthImage) -> None:
+        """Turn a depth image into a surface estimate."""
+        estimate, points_D = self.stack.estimate, image.points_D
         p_WD = estimate.p_WB + rotate(estimate.q_WB, self._p_BD)
         p_WT, R_WT = self._believed_tool()
         self._local_surface.update(points_D, p_WD, p_WT, R_WT, self.surface)
-        self.surface.t_s = t_s
+        self.surface.t_s = image.t_s
         self.executive.saw_surface(self.surface)
         self.recorder.surface(self.surface, points_D, p_WD, R_WT)
 
-    def _sample_probe(self) -> None:
-        contact = self.contact.update(self.plant.state)
-        probe = self.instruments.sample_probe(self.plant.state, contact)
-        if probe is None:
-            return
+    def _take_probe_sample(self, probe: Probe) -> None:
         p_WT, _ = self._believed_tool()
         self.executive.probe_sampled(probe, p_WT)
-        self.recorder.row(probe)
 
     def _believed_tool(self) -> tuple[Vector, Matrix]:
         """(p_WT, R_WT) by the estimate, with the arm where it was asked to be."""

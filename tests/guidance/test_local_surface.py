@@ -15,6 +15,7 @@ from inspect_cli.spatial.rotations import (
     quaternion_to_matrix,
     roll_pitch_yaw_matrix,
 )
+from inspect_cli.truth.snapshot import Truth
 from inspect_cli.truth.solids import Solids
 
 P_BT = np.array([0.55, 0.0, 0.0])
@@ -56,7 +57,7 @@ def fit(points_D, estimate, out, noise_floor_m=0.004):
 
 def look(primitives, state, estimate, noise_floor_m=0.0, seed=1):
     camera = TofCamera(model(noise_floor_m), Solids(primitives), np.random.default_rng(seed))
-    camera.sample(state)
+    camera.sample(Truth(state))
     out = SurfaceEstimate.create()
     fit(camera.points_D, estimate, out, noise_floor_m)
     return out, camera.points_D

@@ -16,6 +16,7 @@ from inspect_cli.schema.vehicle import TofModel
 from inspect_cli.sensing.tof import TofCamera
 from inspect_cli.spatial.primitives import plane
 from inspect_cli.spatial.rotations import matrix_to_quaternion, rotate
+from inspect_cli.truth.snapshot import Truth
 from inspect_cli.truth.solids import Solids
 
 MOTION = ("p_WB", "q_WB", "v_WB_W", "w_WB_B", "a_WB_W", "alpha_WB_B", "p_WT")
@@ -208,7 +209,7 @@ def test_camera_and_pursuit_together_find_a_wall_that_is_not_where_it_was_planne
         state.p_WB[:] = pursuit.reference.p_WB
         state.q_WB[:] = pursuit.reference.q_WB
         state.q_WT[:] = matrix_to_quaternion(R_WT)
-        camera.sample(state)
+        camera.sample(Truth(state))
         p_WD = state.p_WB + rotate(state.q_WB, np.array(model.position_B_m))
         local.update(camera.points_D, p_WD, p_WT, R_WT, surface)
         pursuit.observe(t, surface)

@@ -14,6 +14,7 @@ from inspect_cli.schema.vehicle import ImuModel
 from inspect_cli.sensing.imu import ImuSensor
 from inspect_cli.sensing.instrument import BLOCK, Noise
 from inspect_cli.sensing.pose import PoseSensor
+from inspect_cli.truth.snapshot import Truth
 
 QUIET = dict.fromkeys(
     (
@@ -46,7 +47,7 @@ def imu_samples(model: ImuModel, rate_hz: int, n: int, seed: int = 0) -> np.ndar
     state.q_WB[0] = 1.0
     out = np.empty((n, 6))
     for k in range(n):
-        sensor.sample(state)
+        sensor.sample(Truth(state))
         out[k, :3], out[k, 3:] = sensor.measurement.f_B, sensor.measurement.w_B
     return out - np.array([0.0, 0.0, 9.81, 0.0, 0.0, 0.0])
 
@@ -54,7 +55,7 @@ def imu_samples(model: ImuModel, rate_hz: int, n: int, seed: int = 0) -> np.ndar
 def test_ideal_imu() -> None:
     state = moving_state()
     sensor = ImuSensor(ImuModel(**QUIET), 250, np.random.default_rng(0))
-    sensor.sample(state)
+    sensor.sample(Truth(state))
     R = Rotation.from_quat(state.q_WB, scalar_first=True).as_matrix()
     assert sensor.measurement.f_B == pytest.approx(R.T @ [0.5, -1.5, 2.0 + 9.81])
     assert sensor.measurement.w_B == pytest.approx([0.1, 0.2, -0.3])
@@ -94,7 +95,7 @@ def test_tracker_noise_is_on_the_right() -> None:
     n = 10_000
     errors = np.empty((n, 6))
     for k in range(n):
-        sensor.sample(state)
+        sensor.sample(Truth(state))
         q = sensor.measurement.q_WB
         assert q[0] >= 0.0
         errors[k, :3] = sensor.measurement.p_WB - state.p_WB
@@ -109,7 +110,7 @@ def test_ideal_tracker() -> None:
     state = moving_state()
     model = PoseModel(position_noise_m=0.0, attitude_noise_rad=0.0)
     sensor = PoseSensor(model, np.random.default_rng(0))
-    sensor.sample(state)
+    sensor.sample(Truth(state))
     assert sensor.measurement.p_WB == pytest.approx([1.0, -2.0, 3.0])
     assert sensor.measurement.q_WB == pytest.approx(state.q_WB)
 
@@ -150,11 +151,11 @@ def test_the_filter_trusts_these_sensors_as_much_as_they_deserve() -> None:
             state.t_s = t
             state.q_WB = [np.cos(0.5 * rate * t), 0.0, 0.0, np.sin(0.5 * rate * t)]
             if k % 5 == 0:
-                pose.sample(state)
+                pose.sample(Truth(state))
             if k == 0:
                 belief.start(pose.measurement, estimate)
             if k % 2 == 0:
-                imu.sample(state)
+                imu.sample(Truth(state))
                 belief.propagate(imu.measurement, estimate)
             if k % 5 == 0 and k > 0:
                 assert belief.correct(pose.measurement, estimate)

@@ -14,6 +14,7 @@ from inspect_cli.records import Estimate, Imu, Odometry, State
 from inspect_cli.schema.positioning import OdometryModel
 from inspect_cli.schema.vehicle import ImuModel
 from inspect_cli.sensing.odometry import OdometrySensor
+from inspect_cli.truth.snapshot import Truth
 
 QUIET = {
     "position_noise_m": 0.0,
@@ -52,7 +53,7 @@ def errors(path: Path, seconds: float, seed: int, **numbers: float) -> np.ndarra
     for k in range(round(30 * seconds) + 1):
         p, R = path(k / 30.0)
         state.t_s, state.p_WB, state.q_WB = k / 30.0, p, R.as_quat(scalar_first=True)
-        sensor.sample(state)
+        sensor.sample(Truth(state))
     found = Rotation.from_quat(sensor.measurement.q_WB, scalar_first=True)
     assert sensor.measurement.t_s == state.t_s
     return np.r_[sensor.measurement.p_WB - p, (found * R.inv()).as_rotvec()]
@@ -173,7 +174,7 @@ class Shuttle:
             t = state.t_s = imu.t_s = k / 750.0
             state.p_WB = [1.0 - np.cos(0.8 * t), 0.0, 0.0]
             if k == 0:
-                self.sensor.sample(state)
+                self.sensor.sample(Truth(state))
                 self.filter.start(self.sensor.measurement, self.estimate)
             if k % 3 == 0:
                 noise = root * np.repeat([2e-3, 2e-4], 3) * rng.standard_normal(6)
@@ -182,7 +183,7 @@ class Shuttle:
                 imu.w_B = sample[3:]
                 self.filter.propagate(imu, self.estimate)
             if k % 25 == 0 and k > 0:
-                self.sensor.sample(state)
+                self.sensor.sample(Truth(state))
                 self.rejected += not self.filter.correct(self.sensor.measurement, self.estimate)
         self.true_p = state.p_WB.copy()
         self.odometry_p = self.sensor._believed[:3].copy()
@@ -243,5 +244,5 @@ def test_a_steady_drift_moves_what_it_believes_at_rest_too() -> None:
     state.q_WB[0] = 1.0
     for k in range(301):
         state.t_s = 1.0 + k / 30.0
-        sensor.sample(state)
+        sensor.sample(Truth(state))
     np.testing.assert_allclose(sensor.measurement.p_WB, [0.02, 0.0, -0.01], atol=1e-12)

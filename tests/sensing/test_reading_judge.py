@@ -11,6 +11,7 @@ from inspect_cli.records import InvalidReason, Probe, Reading, State, TrueContac
 from inspect_cli.schema.vehicle import HalfCellModel
 from inspect_cli.sensing.half_cell import OVER_RANGE_OHM, HalfCellProbe
 from inspect_cli.sensing.reading import FORCE_MEAN_S, ReadingJudge
+from inspect_cli.truth.snapshot import Truth
 
 MODEL = HalfCellModel(
     potential_noise_v=0.002,
@@ -166,7 +167,7 @@ def simulated_visit(force_n: float, specimen: bool, seed: int) -> Reading:
     judge = ReadingJudge(MODEL, DWELL)
     judge.begin(0, 0.0)
     while not judge.done(state.t_s):
-        probe.sample(state, contact)
+        probe.sample(Truth(state, lambda: contact))
         judge.feed(probe.measurement, np.zeros(3))
         state.t_s += 0.02
     return judge.finish(state.t_s)
