@@ -13,11 +13,12 @@ from inspect_cli.log.reader import RunLog
 from inspect_cli.metrics.assessed import assess_points
 from inspect_cli.reporting.evaluated import Evaluated
 from inspect_cli.schema.result import PointResult
+from inspect_cli.schema.vehicle import HalfCellModel
 
 
 def evaluated_points(points: Sequence[PointResult], log: RunLog) -> list[Evaluated]:
     """The surfaces of a flight, or of the sorties of a survey, of which ``log`` is the first."""
-    probe = log.platform().sensors.half_cell
+    probe = log.platform().find(HalfCellModel)
     return [mapped(assessed) for assessed in assess_points(points, log.mission(), probe)]
 
 

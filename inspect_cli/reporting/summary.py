@@ -32,6 +32,7 @@ from inspect_cli.reporting.text import (
 from inspect_cli.reporting.works import Works, boxes
 from inspect_cli.schema.plan import Plan
 from inspect_cli.schema.result import PointResult, Result, Status
+from inspect_cli.schema.vehicle import HalfCellModel
 
 STATUS_WORDS: dict[Status, Text] = {
     "completed": say("The flight was completed."),
@@ -280,7 +281,7 @@ def caveats(
 
 def method(log: RunLog, plan: Plan) -> Facts:
     """How the readings were taken, in the order of an inspection report."""
-    probe = log.platform().sensors.half_cell
+    probe = log.platform().sensor(HalfCellModel)
     pressed = [target for target in plan.targets if target.kind == "contact"]
     force = number(max((t.expected_force_n for t in pressed), default=None), 2)
     counts = say(

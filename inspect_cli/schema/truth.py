@@ -114,12 +114,17 @@ class ProximityEffects(Strict):
     wall: bool = True
 
 
-class SensorFault(Strict):
-    """A sensor that fails during the flight. Nothing flies on without its inertial unit."""
+WALL = "wall"
+"""Name of the force sensor that a surface is mounted on, among the sensors of a flight."""
 
-    sensor: Literal["tof", "pose", "odometry", "probe"]
+
+class SensorFault(Strict):
+    """A sensor that fails during the flight."""
+
+    sensor: Name
+    """One of the platform's sensors, or ``wall`` for the force sensor that carries a surface."""
     fault: Literal["off", "nan", "holes"] = "off"
-    """Silent, not a number, or (the depth camera alone) without a return in random patches."""
+    """Silent, not a number, or (a depth camera alone) without a return in random patches."""
     share: Annotated[float, Field(gt=0, lt=1)] | None = None
     """Of the pixels that holes take from every image."""
     start_s: NonNegative = 0.0
@@ -133,9 +138,7 @@ class SensorFault(Strict):
         return self
 
     @model_validator(mode="after")
-    def _only_images_have_holes(self) -> SensorFault:
-        if self.fault == "holes" and self.sensor != "tof":
-            raise ValueError(f"only the images of tof have holes; {self.sensor} can be off or nan")
+    def _holes_have_a_share(self) -> SensorFault:
         if self.fault == "holes" and self.share is None:
             raise ValueError("holes need a share of the pixels, such as share: 0.5")
         if self.fault != "holes" and self.share is not None:

@@ -29,7 +29,7 @@ import numpy as np
 from inspect_cli.assessment.electrodes import electrode_shift_v
 from inspect_cli.records import Probe
 from inspect_cli.schema.vehicle import HalfCellModel
-from inspect_cli.sensing.instrument import Noise
+from inspect_cli.sensing.instrument import Noise, Surroundings
 from inspect_cli.spatial.arrays import Vector
 from inspect_cli.truth.snapshot import Truth
 
@@ -140,3 +140,8 @@ class HalfCellProbe:
         keep = math.exp(-dt / FLOATING_S)
         spread = FLOATING_V * math.sqrt(1.0 - keep * keep)
         self._floating_v = keep * self._floating_v + spread * noise
+
+
+def half_cell_probe(model: HalfCellModel, around: Surroundings) -> HalfCellProbe:
+    """The probe of a flight."""
+    return HalfCellProbe(model, around.rng, around.structure.temperatures_c)

@@ -15,7 +15,7 @@ import numpy as np
 from inspect_cli.compiled import kernel
 from inspect_cli.records import Imu
 from inspect_cli.schema.vehicle import ImuModel
-from inspect_cli.sensing.instrument import Noise
+from inspect_cli.sensing.instrument import Noise, Surroundings
 from inspect_cli.spatial.arrays import Vector
 from inspect_cli.spatial.constants import GRAVITY_MPS2
 from inspect_cli.spatial.rotations import rotate_back
@@ -51,9 +51,9 @@ def measure_motion(
 class ImuSensor:
     """Specific force and angular rate of the body."""
 
-    def __init__(self, model: ImuModel, rate_hz: int, rng: np.random.Generator) -> None:
+    def __init__(self, model: ImuModel, rng: np.random.Generator) -> None:
         self.measurement = Imu.create()
-        root = np.sqrt(rate_hz)
+        root = np.sqrt(model.rate_hz)
         self._sd = np.array(
             [
                 model.accel_noise * root,
@@ -81,3 +81,8 @@ class ImuSensor:
             measurement.w_B,
         )
         return measurement
+
+
+def imu_sensor(model: ImuModel, around: Surroundings) -> ImuSensor:
+    """The inertial unit of a flight."""
+    return ImuSensor(model, around.rng)

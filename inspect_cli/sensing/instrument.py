@@ -1,13 +1,16 @@
-"""What simulated sensors share: their interface, and standard normal numbers drawn in blocks."""
+"""What simulated sensors share: their interface, what they are built from, and their noise."""
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from typing import Final, Protocol
 
 import numpy as np
 
 from inspect_cli.records import Measurement
+from inspect_cli.schema.truth import TruthModel
 from inspect_cli.spatial.arrays import Vector
+from inspect_cli.truth.geometry import StructureTruth
 from inspect_cli.truth.snapshot import Truth
 
 BLOCK: Final = 256
@@ -43,3 +46,15 @@ class SimulatedSensor(Protocol):
     def sample(self, truth: Truth) -> Measurement | None:
         """Measure now; None where there is nothing to hand on yet."""
         ...
+
+
+@dataclass(frozen=True)
+class Surroundings:
+    """What a simulated sensor is built from besides the numbers of its kind."""
+
+    structure: StructureTruth
+    """The true surfaces."""
+    truth: TruthModel
+    """What else is so in this flight."""
+    rng: np.random.Generator
+    """The sensor's own generator."""

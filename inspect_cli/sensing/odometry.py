@@ -30,9 +30,9 @@ import numpy as np
 from inspect_cli.compiled import kernel
 from inspect_cli.records import Odometry
 from inspect_cli.schema.base import Triple
-from inspect_cli.schema.positioning import OdometryModel
-from inspect_cli.sensing.instrument import Noise
-from inspect_cli.sensing.pose import measure_pose
+from inspect_cli.schema.vehicle import OdometryModel
+from inspect_cli.sensing.instrument import Noise, Surroundings
+from inspect_cli.sensing.pose_tracker import measure_pose
 from inspect_cli.spatial.arrays import Vector
 from inspect_cli.spatial.rotations import (
     quaternion_conjugate,
@@ -126,3 +126,8 @@ class OdometrySensor:
             measurement.q_WB,
         )
         return measurement
+
+
+def odometry_sensor(model: OdometryModel, around: Surroundings) -> OdometrySensor:
+    """The odometry of a flight, with the steady drift that the truth states."""
+    return OdometrySensor(model, around.rng, around.truth.platform.odometry_drift_mps)

@@ -18,21 +18,21 @@ from inspect_cli.guidance.local_surface import LocalSurface
 from inspect_cli.guidance.pursuit import Pursuit
 from inspect_cli.interfaces import Posture
 from inspect_cli.log.writer import LogWriter
-from inspect_cli.records import DepthImage, Imu, Odometry, Pose, Probe, SurfaceEstimate
+from inspect_cli.records import DepthImage, Imu, Odometry, Pose, Probe, Record, SurfaceEstimate
 from inspect_cli.schema.plan import Plan, Target
 from inspect_cli.schema.positioning import Estimation
 from inspect_cli.schema.primitives import primitive_of
 from inspect_cli.schema.result import Status
 from inspect_cli.schema.truth import TruthModel
+from inspect_cli.schema.vehicle import DepthCameraModel, HalfCellModel
 from inspect_cli.sensing.reading import ReadingJudge
 from inspect_cli.simulation.clock import Clock, Tick
-from inspect_cli.simulation.mounts import Listener, Mount, mounts_of, named
+from inspect_cli.simulation.mounts import Listener, Mount, mounts_of
 from inspect_cli.simulation.plant import Plant
 from inspect_cli.simulation.randomness import component_rng
 from inspect_cli.simulation.recorder import Recorder
 from inspect_cli.simulation.world import build_world
 from inspect_cli.spatial.arrays import Matrix, Vector
-from inspect_cli.spatial.rotations import rotate
 from inspect_cli.truth.contact import ContactTruth
 from inspect_cli.truth.disturbances import Disturbances
 from inspect_cli.truth.geometry import StructureTruth
@@ -88,18 +88,17 @@ class Flight:
         self.contact = ContactTruth(structure)
         state = self.plant.state
         self.truth = Truth(state, partial(self.contact.update, state), self.plant.wall_wrench)
-        reads = any(target.sensor is not None for target in plan.targets)
-        self.mounts = mounts_of(platform, structure, truth, seed, estimation, reads)
+        reads_with = {target.sensor for target in plan.targets if target.sensor is not None}
+        self.mounts = mounts_of(platform, structure, truth, seed, estimation, reads_with)
         self.stack = vehicle.flight_stack(estimation)
         believed = {surface.name: primitive_of(surface.shape) for surface in plan.surfaces}
         self.guidance = Pursuit(vehicle.capabilities, posture_of(plan.start), believed)
         self.surface = SurfaceEstimate.create()
         self._capabilities = vehicle.capabilities
-        self._p_BD = np.array(platform.sensors.tof.position_B_m)
-        self._local_surface = LocalSurface(platform.sensors.tof)
+        self._camera = platform.find(DepthCameraModel)
 
         def judge(target: Target) -> ReadingJudge:
-            return ReadingJudge(platform.sensors.half_cell, target.dwell_s)
+            return ReadingJudge(platform.sensor(HalfCellModel), target.dwell_s)
 
         limit_s = 60.0 + 2.0 * plan.duration_s
         self.executive = Executive(plan, self.guidance, judge, self.stack.estimate, limit_s)
@@ -113,6 +112,8 @@ class Flight:
             disturbances.load.record if truth.loads_depend_on_the_flight else None,
         )
         for mount in self.mounts:
+            if isinstance(mount.sensor.measurement, Record):
+                log.declare(type(mount.sensor.measurement))
             mount.listeners = self._listeners(mount)
         due = {mount.name: mount.rate_hz for mount in self.mounts} | {
             "mission": rates.mission_hz,
@@ -148,7 +149,8 @@ class Flight:
 
     def _start_stack(self) -> bool:
         """Begin the estimate at the first pose measurement, if there is one."""
-        pose = named(self.mounts, "pose", "odometry").sample(self.truth)
+        sources = (m for m in self.mounts if isinstance(m.sensor.measurement, Pose))
+        pose = next((source.sample(self.truth) for source in sources), None)
         if not isinstance(pose, Pose):
             return False
         if not (np.isfinite(pose.p_WB).all() and np.isfinite(pose.q_WB).all()):
@@ -184,24 +186,32 @@ class Flight:
             Imu: (self.stack.on_imu,),  # logged with the other channels at the log's rate
             Pose: (self._correct_estimate,),
             Odometry: (self.recorder.row, self._correct_estimate),
-            DepthImage: (self._see_surface,),
             Probe: (self._take_probe_sample, self.recorder.row),
         }
+        if self._camera is not None:
+            heard_by[DepthImage] = (self._surface_seen_by(self._camera),)
         return heard_by.get(type(mount.sensor.measurement), (self.recorder.row,))
 
     def _correct_estimate(self, pose: Pose) -> None:
         if self.stack.on_pose(pose):
             self.executive.heard_pose(pose.t_s)
 
-    def _see_surface(self, image: DepthImage) -> None:
-        """Turn a depth image into a surface estimate."""
-        estimate, points_D = self.stack.estimate, image.points_D
-        p_WD = estimate.p_WB + rotate(estimate.q_WB, self._p_BD)
-        p_WT, R_WT = self._believed_tool()
-        self._local_surface.update(points_D, p_WD, p_WT, R_WT, self.surface)
-        self.surface.t_s = image.t_s
-        self.executive.saw_surface(self.surface)
-        self.recorder.surface(self.surface, points_D, p_WD, R_WT)
+    def _surface_seen_by(self, camera: DepthCameraModel) -> Callable[[DepthImage], None]:
+        """What turns an image of the camera into a surface estimate."""
+        mounting, local_surface = camera.mount.mounting(), LocalSurface(camera)
+        estimate = self.stack.estimate
+
+        def see(image: DepthImage) -> None:
+            p_WT, R_WT = self._believed_tool()
+            p_WD, R_WD = mounting.pose(estimate.p_WB, estimate.q_WB, p_WT, R_WT)
+            points_D = image.points_D
+            along_T = points_D if R_WD is R_WT else points_D @ (R_WT.T @ R_WD).T
+            local_surface.update(along_T, p_WD, p_WT, R_WT, self.surface)
+            self.surface.t_s = image.t_s
+            self.executive.saw_surface(self.surface)
+            self.recorder.surface(self.surface, points_D, p_WD, R_WD)
+
+        return see
 
     def _take_probe_sample(self, probe: Probe) -> None:
         p_WT, _ = self._believed_tool()

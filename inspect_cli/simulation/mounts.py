@@ -2,31 +2,24 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Collection, Iterator
 from typing import TypeAlias
 
 from inspect_cli.records import Measurement
 from inspect_cli.schema.positioning import Estimation
-from inspect_cli.schema.truth import TruthModel
-from inspect_cli.schema.vehicle import PlatformBase
-from inspect_cli.sensing.half_cell import HalfCellProbe
-from inspect_cli.sensing.imu import ImuSensor
-from inspect_cli.sensing.instrument import SimulatedSensor
-from inspect_cli.sensing.odometry import OdometrySensor
-from inspect_cli.sensing.pose import PoseSensor
-from inspect_cli.sensing.tof import TofCamera
+from inspect_cli.schema.truth import WALL, TruthModel
+from inspect_cli.schema.vehicle import PlatformBase, PoseSourceModel, SensorModel
+from inspect_cli.schema.vehicle.sensors import SENSORS
+from inspect_cli.sensing.instrument import SimulatedSensor, Surroundings
+from inspect_cli.sensing.sensors import simulated
 from inspect_cli.sensing.wall_force import WallForceSensor
 from inspect_cli.simulation.randomness import component_rng
-from inspect_cli.truth.faults import Faults
+from inspect_cli.truth.faults import Faults, Sample
 from inspect_cli.truth.geometry import StructureTruth
 from inspect_cli.truth.snapshot import Truth
-from inspect_cli.truth.solids import on_the_ground
 
 Listener: TypeAlias = Callable[..., None]
 """Takes a measurement of the type that its sensor returns."""
-
-WALL = "wall"
-"""Name of the force sensor that a surface is mounted on."""
 
 
 class Mount:
@@ -37,7 +30,7 @@ class Mount:
         self.rate_hz = rate_hz
         self.sensor = sensor
         self.listeners: tuple[Listener, ...] = ()
-        self._sample = sensor.sample
+        self._sample: Sample = sensor.sample
 
     def fail(self, faults: Faults, seed: int) -> None:
         """Let the sensor fail where the mission says so."""
@@ -55,62 +48,42 @@ def mounts_of(
     truth: TruthModel,
     seed: int,
     estimation: Estimation,
-    reads: bool,
+    reads_with: Collection[str],
 ) -> tuple[Mount, ...]:
     """The sensors that a flight needs, in the order in which they are sampled.
 
-    Each has a generator of its own, drawn from ``seed`` by the sensor's name. Of tracker and
-    odometry, only the one that ``estimation`` names is mounted; the probe only if the plan
-    ``reads`` any point.
+    The order is that of the kinds in ``SENSORS``, then a force sensor in a wall. Each sensor has a
+    generator of its own, drawn from ``seed`` by the sensor's name. Of the pose sources only that
+    of ``estimation`` is mounted, and of the kinds that read points only those in ``reads_with``.
     """
-    mounts = [
-        *_motion_sensors(platform, truth, seed, estimation),
-        *_wall_sensor(structure, seed),
-        *_tool_sensors(platform, structure, seed, reads),
+    kinds = list(SENSORS)
+    chosen = [
+        (name, model)
+        for name, model in platform.sensors.items()
+        if _is_needed(model, estimation, reads_with)
     ]
+    mounts = []
+    for name, model in sorted(chosen, key=lambda item: kinds.index(item[1].kind)):
+        around = Surroundings(structure, truth, component_rng(seed, name))
+        mounts.append(Mount(name, model.rate_hz, simulated(model, around)))
+    mounts += _wall_sensor(structure, seed)
     faults = Faults(truth.faults)
     for mount in mounts:
         mount.fail(faults, seed)
     return tuple(mounts)
 
 
-def _motion_sensors(
-    platform: PlatformBase, truth: TruthModel, seed: int, estimation: Estimation
-) -> Iterator[Mount]:
-    sensors, rates = platform.sensors, platform.rates
-    imu = ImuSensor(sensors.imu, rates.imu_hz, component_rng(seed, "imu"))
-    yield Mount("imu", rates.imu_hz, imu)
-    if estimation == "onboard" and sensors.odometry is not None:
-        drift_mps = truth.platform.odometry_drift_mps
-        odometry = OdometrySensor(sensors.odometry, component_rng(seed, "odometry"), drift_mps)
-        yield Mount("odometry", rates.odometry_hz, odometry)
-    else:
-        pose = PoseSensor(sensors.pose, component_rng(seed, "pose"))
-        yield Mount("pose", rates.pose_hz, pose)
-
-
-def _tool_sensors(
-    platform: PlatformBase, structure: StructureTruth, seed: int, reads: bool
-) -> Iterator[Mount]:
-    sensors, rates = platform.sensors, platform.rates
-    seen = on_the_ground(structure.solids)
-    yield Mount("tof", rates.tof_hz, TofCamera(sensors.tof, seen, component_rng(seed, "tof")))
-    if reads:
-        rng = component_rng(seed, "probe")
-        probe = HalfCellProbe(sensors.half_cell, rng, structure.temperatures_c)
-        yield Mount("probe", rates.probe_hz, probe)
+def _is_needed(model: SensorModel, estimation: Estimation, reads_with: Collection[str]) -> bool:
+    if isinstance(model, PoseSourceModel):
+        return model.estimation == estimation
+    return not model.on_demand or model.kind in reads_with
 
 
 def _wall_sensor(structure: StructureTruth, seed: int) -> Iterator[Mount]:
     for index, surface in enumerate(structure.surfaces):
         if surface.force_sensor is not None:
             primitive = structure.solids.primitives[index : index + 1]
-            rng = component_rng(seed, "wall")
+            rng = component_rng(seed, WALL)
             sensor = WallForceSensor(surface.force_sensor, primitive, rng)
             yield Mount(WALL, surface.force_sensor.rate_hz, sensor)
             return
-
-
-def named(mounts: Sequence[Mount], *names: str) -> Mount:
-    """The first mount with one of these names."""
-    return next(mount for mount in mounts if mount.name in names)

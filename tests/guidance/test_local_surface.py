@@ -7,8 +7,8 @@ import pytest
 
 from inspect_cli.guidance.local_surface import LocalSurface
 from inspect_cli.records import Estimate, State, SurfaceEstimate
-from inspect_cli.schema.vehicle import TofModel
-from inspect_cli.sensing.tof import TofCamera
+from inspect_cli.schema.vehicle import DepthCameraModel, MountModel
+from inspect_cli.sensing.depth_camera import DepthCamera
 from inspect_cli.spatial.primitives import cylinder, plane
 from inspect_cli.spatial.rotations import (
     matrix_to_quaternion,
@@ -24,9 +24,11 @@ P_BD = np.array([0.16, 0.0, 0.06])
 RADIUS = 0.1
 
 
-def model(noise_floor_m=0.0) -> TofModel:
-    return TofModel(
-        position_B_m=tuple(P_BD.tolist()),
+def model(noise_floor_m=0.0) -> DepthCameraModel:
+    return DepthCameraModel(
+        kind="depth_camera",
+        rate_hz=10,
+        mount=MountModel(frame="body", position_m=tuple(P_BD.tolist()), axes="tool"),
         columns=64,
         rows=48,
         field_of_view_deg=(62.0, 45.0),
@@ -56,7 +58,7 @@ def fit(points_D, estimate, out, noise_floor_m=0.004):
 
 
 def look(primitives, state, estimate, noise_floor_m=0.0, seed=1):
-    camera = TofCamera(model(noise_floor_m), Solids(primitives), np.random.default_rng(seed))
+    camera = DepthCamera(model(noise_floor_m), Solids(primitives), np.random.default_rng(seed))
     camera.sample(Truth(state))
     out = SurfaceEstimate.create()
     fit(camera.points_D, estimate, out, noise_floor_m)

@@ -17,6 +17,8 @@ from inspect_cli.sensing.reading import ReadingJudge
 from inspect_cli.truth.snapshot import Truth
 
 QUIET = HalfCellModel(
+    kind="half_cell",
+    rate_hz=50,
     potential_noise_v=0.0,
     resistance_noise=0.0,
     force_noise_n=0.0,

@@ -11,12 +11,13 @@ from scipy.stats import chi2
 
 from inspect_cli.estimation.error_state import ErrorStateFilter
 from inspect_cli.records import Estimate, Imu, Odometry, State
-from inspect_cli.schema.positioning import OdometryModel
-from inspect_cli.schema.vehicle import ImuModel
+from inspect_cli.schema.vehicle import ImuModel, OdometryModel
 from inspect_cli.sensing.odometry import OdometrySensor
 from inspect_cli.truth.snapshot import Truth
 
 QUIET = {
+    "kind": "odometry",
+    "rate_hz": 30,
     "position_noise_m": 0.0,
     "attitude_noise_rad": 0.0,
     "position_walk": 0.0,
@@ -26,6 +27,8 @@ QUIET = {
     "tilt_error_rad": 0.0,
 }
 FLOWN = {
+    "kind": "odometry",
+    "rate_hz": 30,
     "position_noise_m": 0.001,
     "attitude_noise_rad": 0.002,
     "position_walk": 0.004,
@@ -146,6 +149,8 @@ def test_the_drift_depends_on_the_seed_alone() -> None:
 
 
 IMU = ImuModel(
+    kind="imu",
+    rate_hz=250,
     accel_noise=2e-3,
     gyro_noise=2e-4,
     accel_bias_walk=3e-4,

@@ -14,6 +14,8 @@ from inspect_cli.sensing.reading import FORCE_MEAN_S, ReadingJudge
 from inspect_cli.truth.snapshot import Truth
 
 MODEL = HalfCellModel(
+    kind="half_cell",
+    rate_hz=50,
     potential_noise_v=0.002,
     resistance_noise=0.03,
     force_noise_n=0.05,

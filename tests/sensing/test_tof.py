@@ -7,8 +7,8 @@ import pytest
 
 from inspect_cli.records import State
 from inspect_cli.schema.geometry import Displacement, MeshShape
-from inspect_cli.schema.vehicle import TofModel
-from inspect_cli.sensing.tof import TofCamera
+from inspect_cli.schema.vehicle import DepthCameraModel, MountModel
+from inspect_cli.sensing.depth_camera import DepthCamera
 from inspect_cli.spatial.primitives import PRIMITIVE, plane, sphere
 from inspect_cli.spatial.rotations import (
     matrix_to_quaternion,
@@ -24,9 +24,11 @@ R_BT = np.array([[0.0, 0.0, 1.0], [0.0, 1.0, 0.0], [-1.0, 0.0, 0.0]])
 P_BD = np.array([0.16, 0.0, 0.06])
 
 
-def model(noise_floor_m=0.0, noise_m=0.0) -> TofModel:
-    return TofModel(
-        position_B_m=tuple(P_BD.tolist()),
+def model(noise_floor_m=0.0, noise_m=0.0) -> DepthCameraModel:
+    return DepthCameraModel(
+        kind="depth_camera",
+        rate_hz=10,
+        mount=MountModel(frame="body", position_m=tuple(P_BD.tolist()), axes="tool"),
         columns=64,
         rows=48,
         field_of_view_deg=(62.0, 45.0),
@@ -46,8 +48,8 @@ def state_at(p_WB, R_WB=None) -> State:
     return state
 
 
-def camera(primitives, seed=1, **noise) -> TofCamera:
-    return TofCamera(model(**noise), Solids(primitives), np.random.default_rng(seed))
+def camera(primitives, seed=1, **noise) -> DepthCamera:
+    return DepthCamera(model(**noise), Solids(primitives), np.random.default_rng(seed))
 
 
 def in_world(points_D, state):
@@ -158,7 +160,7 @@ def test_a_vault_is_seen_as_its_heights_say(root):
     shape = MeshShape(file="missions/scans/vault.ply", normal=(0.0, 0.0, -1.0))
     relief = mesh_relief(shape, Displacement(), root)
     solids = Solids(np.zeros(0, PRIMITIVE), relief.row, relief.nodes)
-    cam = TofCamera(model(), solids, np.random.default_rng(1))
+    cam = DepthCamera(model(), solids, np.random.default_rng(1))
     state = state_at([0.4, 0.2, 2.2], roll_pitch_yaw_matrix(0.1, -1.2, 0.3))
     cam.sample(Truth(state))
     points = in_world(cam.points_D, state)

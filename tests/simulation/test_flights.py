@@ -269,7 +269,7 @@ def test_a_calomel_electrode_in_warm_concrete_comes_back_to_the_standards_scale(
     """
     (campaign / "platforms" / "calomel.yaml").write_text(
         "schema: 1\nextends: tilt_rotor_hexarotor.yaml\nname: calomel\nkind: tilt_rotor\n"
-        "sensors: {half_cell: {electrode: SCE}}\n"
+        "sensors: {probe: {electrode: SCE}}\n"
     )
     warm = """
         structure:

@@ -9,8 +9,8 @@ import numpy as np
 
 from inspect_cli.compiled import kernel
 from inspect_cli.records import Pose
-from inspect_cli.schema.positioning import PoseModel
-from inspect_cli.sensing.instrument import Noise
+from inspect_cli.schema.vehicle import PoseTrackerModel
+from inspect_cli.sensing.instrument import Noise, Surroundings
 from inspect_cli.spatial.arrays import Vector
 from inspect_cli.spatial.rotations import (
     quaternion_exp,
@@ -37,7 +37,7 @@ def measure_pose(
 class PoseSensor:
     """Position and attitude of the body."""
 
-    def __init__(self, model: PoseModel, rng: np.random.Generator) -> None:
+    def __init__(self, model: PoseTrackerModel, rng: np.random.Generator) -> None:
         self.measurement = Pose.create()
         self._sd = np.array([model.position_noise_m, model.attitude_noise_rad])
         self._noise = Noise(rng, 6)
@@ -55,3 +55,8 @@ class PoseSensor:
             measurement.q_WB,
         )
         return measurement
+
+
+def pose_tracker(model: PoseTrackerModel, around: Surroundings) -> PoseSensor:
+    """The tracker of a flight."""
+    return PoseSensor(model, around.rng)
