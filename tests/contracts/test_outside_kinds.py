@@ -60,7 +60,7 @@ class Updraught(DisturbanceModel):
     kind: Literal["updraught"]
     force_n: float
 ''',
-    "updraught_load": '''
+    "updraught_load": """
 class UpdraughtLoad:
     def __init__(self, force_n):
         self._force_n = force_n
@@ -70,7 +70,7 @@ class UpdraughtLoad:
 
 def updraught(entry, around):
     return UpdraughtLoad(entry.force_n)
-''',
+""",
     "slope_model": '''
 from typing import Literal
 from inspect_cli.schema.specimens.base import SpecimenModel
@@ -81,7 +81,7 @@ class SlopeSpecimen(SpecimenModel):
     model: Literal["slope"]
     slope_vpm: float
 ''',
-    "slope_field": '''
+    "slope_field": """
 class SlopeField:
     def __init__(self, model):
         self._model = model
@@ -95,7 +95,7 @@ class SlopeField:
 
 def slope_field(model, root, patch):
     return SlopeField(model)
-''',
+""",
 }
 ENTRY_POINTS = """
 [inspect_cli.sensors]
