@@ -16,6 +16,7 @@ from inspect_cli.records import DepthImage
 from inspect_cli.schema.vehicle import DepthCameraModel
 from inspect_cli.sensing.instrument import Surroundings
 from inspect_cli.spatial.arrays import Matrix, Points, Vector
+from inspect_cli.spatial.mounting import Mounting
 from inspect_cli.spatial.rotations import quaternion_to_matrix
 from inspect_cli.truth.snapshot import Truth
 from inspect_cli.truth.solids import Solids, cast, on_the_ground
@@ -45,7 +46,7 @@ class DepthCamera:
         self.model = model
         self.solids = solids
         self._rng = rng
-        self._mounting = model.mount.mounting()
+        self._mounting = Mounting(model.mount)
         self._rays_D = ray_directions(model)
         self._rays_W = np.empty_like(self._rays_D)
         n_rays = self._rays_D.shape[0]

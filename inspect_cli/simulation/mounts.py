@@ -18,7 +18,7 @@ from inspect_cli.truth.faults import Faults, Sample
 from inspect_cli.truth.geometry import StructureTruth
 from inspect_cli.truth.snapshot import Truth
 
-Listener: TypeAlias = Callable[..., None]
+Listener: TypeAlias = Callable[..., object]
 """Takes a measurement of the type that its sensor returns."""
 
 

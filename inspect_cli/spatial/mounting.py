@@ -8,7 +8,7 @@ camera that sits where the last joint's axes meet: its origin stays put in B whi
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from typing import Protocol
 
 import numpy as np
 
@@ -16,26 +16,40 @@ from inspect_cli.spatial.arrays import Matrix, Vector
 from inspect_cli.spatial.rotations import quaternion_exp, quaternion_to_matrix, rotate
 
 
+class Mount(Protocol):
+    """Where a sensor is mounted; ``schema.vehicle.MountModel`` is one."""
+
+    @property
+    def frame(self) -> str:
+        """F: ``body`` or ``tool``."""
+        ...
+
+    @property
+    def position_m(self) -> tuple[float, float, float]:
+        """p_FD."""
+        ...
+
+    @property
+    def axes(self) -> str | None:
+        """A: ``body`` or ``tool``; F without it."""
+        ...
+
+    @property
+    def rotation_rad(self) -> tuple[float, float, float]:
+        """The rotation vector of R_AD."""
+        ...
+
+
 class Mounting:
-    """The frame D of one sensor.
+    """The frame D of one sensor."""
 
-    ``frame`` and ``axes`` are ``body`` or ``tool``; ``position_m`` (3,) is p_FD and
-    ``rotation_rad`` (3,) the rotation vector of R_AD.
-    """
-
-    def __init__(
-        self,
-        frame: str,
-        position_m: Sequence[float],
-        axes: str,
-        rotation_rad: Sequence[float],
-    ) -> None:
-        self._on_tool = frame == "tool"
-        self._position = np.array(position_m)
-        self._turns_with_tool = axes == "tool"
+    def __init__(self, mount: Mount) -> None:
+        self._on_tool = mount.frame == "tool"
+        self._position = np.array(mount.position_m)
+        self._turns_with_tool = (mount.axes or mount.frame) == "tool"
         self._R_AD: Matrix | None = None
-        if any(rotation_rad):
-            self._R_AD = quaternion_to_matrix(quaternion_exp(np.array(rotation_rad)))
+        if any(mount.rotation_rad):
+            self._R_AD = quaternion_to_matrix(quaternion_exp(np.array(mount.rotation_rad)))
 
     def pose(self, p_WB: Vector, q_WB: Vector, p_WT: Vector, R_WT: Matrix) -> tuple[Vector, Matrix]:
         """(p_WD, R_WD) with the body and the tool there; R_WD is ``R_WT`` itself if the axes are

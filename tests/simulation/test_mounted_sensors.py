@@ -6,9 +6,8 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from modes import Mode
 from scenarios import TWO_POINTS, Scenario
-
-from inspect_cli.records import Mode
 
 VARIANT = "schema: 1\nextends: tilt_rotor_hexarotor.yaml\n"
 

@@ -6,7 +6,6 @@ from typing import ClassVar, Literal
 
 from inspect_cli.schema.base import Count, Strict, Triple
 from inspect_cli.schema.positioning import Estimation, PoseNoise
-from inspect_cli.spatial.mounting import Mounting
 
 Frame = Literal["body", "tool"]
 
@@ -50,8 +49,3 @@ class MountModel(Strict):
     place in the body and turns with the tool."""
     rotation_rad: Triple = (0.0, 0.0, 0.0)
     """Rotation vector from those axes to the axes of D."""
-
-    def mounting(self) -> Mounting:
-        """The frame D for a vehicle in motion."""
-        axes = self.axes or self.frame
-        return Mounting(self.frame, self.position_m, axes, self.rotation_rad)
