@@ -18,13 +18,14 @@ Frames: see ``inspect_cli.spatial``.
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
 from enum import IntEnum
-from typing import Any, ClassVar, Self, overload
+from typing import Any, ClassVar, Self, TypeAlias, overload
 
 import numpy as np
 from numpy.typing import ArrayLike
 
-from inspect_cli.spatial.arrays import Structured, Vector
+from inspect_cli.spatial.arrays import Points, Structured, Vector
 
 Lengths = Mapping[str, int]
 NO_LENGTHS: Lengths = {}
@@ -314,6 +315,30 @@ class Command(Record):
     rotor_thrust = vector("n_rotors", "N", "", "thrust asked of each rotor")
     joint_angle = vector("n_joints", "rad", "", "angle asked of tilt and arm joints")
     saturated = scalar("1", "1 if the allocation had to scale the wrench down, else 0")
+
+
+@dataclass(frozen=True)
+class DepthImage:
+    """One image of a depth camera. It is not logged as a row: see ``SurfaceEstimate``."""
+
+    t_s: float
+    image: Points
+    """The measured points (rows, columns, 3), m, in the camera's frame D; NaN for pixels without a
+    return. The camera writes its next image into the same memory."""
+
+    @property
+    def points_D(self) -> Points:
+        """The points of ``image`` as (rows · columns, 3)."""
+        return self.image.reshape(-1, 3)
+
+    @property
+    def views(self) -> dict[str, Points]:
+        """The measured numbers by name, as those of a record."""
+        return {"image": self.image}
+
+
+Measurement: TypeAlias = Record | DepthImage
+"""What a sensor returns."""
 
 
 CORE_RECORDS: tuple[type[Record], ...] = (

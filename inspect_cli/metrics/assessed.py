@@ -27,15 +27,17 @@ AssessAll = Callable[[Sequence[PointResult]], "tuple[Assessed, ...]"]
 
 
 def assess_points(
-    points: Sequence[PointResult], mission: Mission, probe: HalfCellModel
+    points: Sequence[PointResult], mission: Mission, probe: HalfCellModel | None
 ) -> tuple[Assessed, ...]:
     """The findings of each surface that has points, in the order in which it first appears.
+
+    ``probe`` took the readings; without one there are none to assess.
 
     Points that lie on no known surface belong to none. The pitch of a grid or a coverage is the
     mission's; where a surface has single points or several pitches, the points tell the spacing.
     """
     surfaces = dict.fromkeys(p.surface for p in points if p.surface and p.uv_m is not None)
-    if not surfaces:
+    if not surfaces or probe is None:
         return ()
     from inspect_cli.assessment.assess import assess
     from inspect_cli.assessment.readings import readings_of
@@ -51,7 +53,7 @@ def assess_points(
 
 def assessor(mission: Mission, platform: PlatformBase) -> AssessAll:
     """What assesses all points of a survey."""
-    return partial(assess_points, mission=mission, probe=platform.sensors.half_cell)
+    return partial(assess_points, mission=mission, probe=platform.find(HalfCellModel))
 
 
 def with_uncertainty(

@@ -20,6 +20,7 @@ from inspect_cli.metrics.spec import MetricSpec
 from inspect_cli.records import Reading
 from inspect_cli.schema.assessment import SurfaceAssessment
 from inspect_cli.schema.result import Metric
+from inspect_cli.schema.vehicle import HalfCellModel
 from inspect_cli.spatial.arrays import Vector
 
 if TYPE_CHECKING:
@@ -129,7 +130,7 @@ def _function(finding: Finding) -> Callable[[Flight], float]:
     def value(flight: Flight) -> float:
         _ = flight.read_targets  # without them there is nothing to assess
         points = point_results(flight)
-        assessed = assess_points(points, flight.mission, flight.platform.sensors.half_cell)
+        assessed = assess_points(points, flight.mission, flight.platform.find(HalfCellModel))
         if not assessed:
             raise NotMeasured("no point to read lies on a known surface")
         return finding.value(assessed)

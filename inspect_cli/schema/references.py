@@ -10,14 +10,14 @@ from inspect_cli.errors import Problem
 from inspect_cli.schema.campaign import inside, is_file
 from inspect_cli.schema.explain import shown, suggest
 from inspect_cli.schema.nodes import Node, join, matches, replaced
+from inspect_cli.schema.specimens import SPECIMENS
 
 FILES = (
     "structure.*.surface.cloud",
     "structure.*.surface.mesh",
     "tasks.*.trace.svg",
     "truth.structure.*.geometry.file",
-    "truth.structure.*.specimen.potential_mv",
-    "truth.structure.*.specimen.resistivity_kohm_cm",
+    *(f"truth.structure.*.specimen.{key}" for model in SPECIMENS.values() for key in model.files),
 )
 """Where a mission names files; their paths are relative to the file that they stand in."""
 

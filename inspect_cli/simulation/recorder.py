@@ -2,19 +2,21 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from time import perf_counter
 
 from inspect_cli.autonomy.context import Context
-from inspect_cli.interfaces import DepthImage, FlightStack
+from inspect_cli.interfaces import FlightStack
 from inspect_cli.log.writer import LogWriter
 from inspect_cli.records import (
+    DepthImage,
+    Imu,
     Record,
     State,
     SurfaceEstimate,
     TrueContact,
     TrueDisturbance,
 )
-from inspect_cli.simulation.instruments import Instruments
 from inspect_cli.spatial.arrays import Matrix, Vector
 
 POSE_S = 0.1
@@ -32,14 +34,14 @@ class Recorder:
         state: State,
         contact: TrueContact,
         stack: FlightStack,
-        instruments: Instruments,
+        inertial: Sequence[Imu],
         disturbance: TrueDisturbance | None,
     ) -> None:
         self._log = log
         self._computed: tuple[Record, ...] = (stack.reference, stack.estimate, stack.command)
         if disturbance is not None:
             self._computed += (disturbance,)
-        continuous = (state, contact, *self._computed, instruments.imu.measurement)
+        continuous = (state, contact, *self._computed, *inertial)
         self._taps = [log.tap(record) for record in continuous]
         self._poses = {
             "/pose/estimate": (stack.estimate.p_WB, stack.estimate.q_WB),
