@@ -11,6 +11,7 @@ import numpy as np
 from inspect_cli.log.reader import RunLog
 from inspect_cli.records import Command, Estimate, Mode, Reference, State
 from inspect_cli.spatial.arrays import Indices, Points, Structured, Vector
+from inspect_cli.vehicles.kinds import TOOL
 
 FAR_M = 200.0
 """A flight that ends farther away than this from where it began has diverged."""
@@ -87,7 +88,7 @@ def _commanded(log: RunLog, t_s: Vector, n_joints: int) -> Points:
 def _tips(model: mujoco.MjModel, qpos: Points) -> Points:
     """Places (n, 3) of the tool's tip by the nominal model."""
     data = mujoco.MjData(model)
-    site = model.site("tool_tip").id
+    site = model.site(TOOL).id
     tips = np.zeros((len(qpos), 3))
     for row, tip in zip(qpos, tips, strict=True):
         data.qpos[:] = row

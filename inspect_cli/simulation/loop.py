@@ -37,6 +37,7 @@ from inspect_cli.truth.disturbances import Disturbances
 from inspect_cli.truth.faults import Faults
 from inspect_cli.truth.geometry import StructureTruth
 from inspect_cli.truth.proximity import Proximity
+from inspect_cli.vehicles.actuators import rotor_radii_m
 from inspect_cli.vehicles.kinds import Vehicle
 
 
@@ -67,8 +68,8 @@ class Flight:
         platform, lengths = vehicle.platform, vehicle.capabilities.lengths
         rates = platform.rates
         model = build_world(vehicle, truth.platform, structure)
-        radius_m = vehicle.actuators.rotor_radius_m
-        proximity = Proximity(truth.proximity, structure.solids, radius_m)
+        radii_m = rotor_radii_m(vehicle.actuators)
+        proximity = Proximity(truth.proximity, structure.solids, radii_m)
         gusts = component_rng(seed, "wind")
         disturbances = Disturbances(truth.disturbances, gusts, rates.control_hz)
         self.plant = Plant(

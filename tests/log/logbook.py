@@ -27,7 +27,7 @@ from inspect_cli.schema.mission import Mission
 from inspect_cli.schema.plan import Leg, Plan, PlannedSurface, PostureModel, Target
 from inspect_cli.schema.truth import TruthModel
 
-LENGTHS = {"n_rotors": 12, "n_joints": 6, "n_arm": 0}
+LENGTHS = {"n_rotors": 12, "n_joints": 6, "n_servos": 6, "n_arm": 0}
 RECORDS: tuple[type[Record], ...] = (
     State,
     TrueContact,
