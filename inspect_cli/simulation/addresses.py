@@ -16,7 +16,7 @@ from inspect_cli.errors import InputError, Problem
 from inspect_cli.records import Lengths
 from inspect_cli.simulation.world import CONTACT_SENSOR, PROTECTED_SENSOR
 from inspect_cli.spatial.arrays import Indices
-from inspect_cli.vehicles.actuators import Drive, Rotor, Servo, of_kind
+from inspect_cli.vehicles.actuators import Actuator, Drive, Rotor, Servo, of_kind
 from inspect_cli.vehicles.contacts import Contact
 from inspect_cli.vehicles.kinds import TOOL, Vehicle
 
@@ -53,10 +53,9 @@ def addresses_of(model: mujoco.MjModel, vehicle: Vehicle, lengths: Lengths) -> A
     problems = _misfits(model, vehicle, lengths)
     if problems:
         raise InputError(problems)
-    rotors, servos, drives = (
-        np.array([model.actuator(a.name).id for a in of_kind(vehicle.actuators, kind)], np.int32)
-        for kind in (Rotor, Servo, Drive)
-    )
+    rotors = _ids(model, of_kind(vehicle.actuators, Rotor))
+    servos = _ids(model, of_kind(vehicle.actuators, Servo))
+    drives = _ids(model, of_kind(vehicle.actuators, Drive))
     joints = np.array([model.joint(name).id for name in vehicle.joints], np.int32)
     return Addresses(
         rotors,
@@ -69,6 +68,10 @@ def addresses_of(model: mujoco.MjModel, vehicle: Vehicle, lengths: Lengths) -> A
         contact_addresses(model, tool_contact(vehicle)),
         _sensors(model, [PROTECTED_SENSOR + body for body in vehicle.bodies.protected]),
     )
+
+
+def _ids(model: mujoco.MjModel, actuators: Sequence[Actuator]) -> Indices:
+    return np.array([model.actuator(actuator.name).id for actuator in actuators], np.int32)
 
 
 def tool_contact(vehicle: Vehicle) -> Contact:
@@ -172,14 +175,17 @@ def _wrong_model(model: mujoco.MjModel, vehicle: Vehicle) -> list[Problem]:
         problems.append(Problem(f"the model's first joint is not the free joint of '{base}'"))
     for actuator in vehicle.actuators:
         row = model.actuator(actuator.name)
-        on_site = isinstance(actuator, Rotor)
-        kind = mujoco.mjtTrn.mjTRN_SITE if on_site else mujoco.mjtTrn.mjTRN_JOINT
-        target = "site" if on_site else f"joint '{actuator.joint}'"
-        acts = model.actuator_trntype[row.id] == kind
-        if acts and not on_site:
-            acts = model.joint(int(row.trnid[0])).name == actuator.joint
+        if isinstance(actuator, Rotor):
+            target = "a site"
+            acts = row.trntype[0] == mujoco.mjtTrn.mjTRN_SITE
+        else:
+            target = f"the joint '{actuator.joint}'"
+            acts = (
+                row.trntype[0] == mujoco.mjtTrn.mjTRN_JOINT
+                and model.joint(int(row.trnid[0])).name == actuator.joint
+            )
         if not acts:
-            problems.append(Problem(f"actuator '{actuator.name}' does not act on a {target}"))
+            problems.append(Problem(f"actuator '{actuator.name}' does not act on {target}"))
         if model.actuator_actnum[row.id] != 1:
             problems.append(Problem(f"actuator '{actuator.name}' has no activation that lags"))
     free = set(range(model.nu)) - {model.actuator(a.name).id for a in vehicle.actuators}

@@ -122,13 +122,14 @@ def _pair_name(geom: str, surface: str) -> str:
 def _add_pair(
     spec: mujoco.MjSpec, contact: Contact, geom: str, surface: str, friction: float
 ) -> None:
-    is_patch = isinstance(contact, PatchContact)
-    torsion = friction * contact.torsion_lever_m if is_patch else 0.0
+    dimensions, torsion = 3, 0.0
+    if isinstance(contact, PatchContact):
+        dimensions, torsion = 4, friction * contact.torsion_lever_m
     spec.add_pair(
         name=_pair_name(geom, surface),
         geomname1=geom,
         geomname2=surface,
-        condim=4 if is_patch else 3,
+        condim=dimensions,
         friction=[friction, friction, torsion, 0.0, 0.0],
     )
 

@@ -86,7 +86,7 @@ def test_a_servo_of_another_joint_is_refused(vehicle: Vehicle) -> None:
         for a in vehicle.actuators
     ]
     text = refusal(altered(vehicle, actuators=tuple(swapped)))
-    assert "actuator 'tilt_1' does not act on a joint 'tilt_0'" in text
+    assert "actuator 'tilt_1' does not act on the joint 'tilt_0'" in text
 
 
 @pytest.mark.parametrize(
