@@ -10,7 +10,8 @@ length one (``.array``): cheap to hand to a kernel, and one assignment logs it.
     estimate.t_s = 0.0            # scalars are assigned
 
 Shapes may name a length that the vehicle decides: ``n_rotors``, ``n_joints`` (measured),
-``n_servos`` (commanded by angle) and ``n_arm`` (stated by a posture); one not named is 0.
+``n_servos`` (commanded by angle), ``n_drives`` (by speed) and ``n_arm`` (stated by a posture);
+one not named is 0.
 
 Frames: see ``inspect_cli.spatial``.
 """
@@ -332,6 +333,7 @@ class Command(Record):
     allocated_B = vector(6, "N, N·m", "B", "wrench that the allocation could grant")
     rotor_thrust = vector("n_rotors", "N", "", "thrust asked of each rotor")
     joint_angle = vector("n_servos", "rad", "", "angle asked of tilt and arm joints")
+    drive_speed = vector("n_drives", "rad/s", "", "speed asked of driven wheels")
     saturated = scalar("1", "1 if the allocation had to scale the wrench down, else 0")
 
 

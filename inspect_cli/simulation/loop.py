@@ -108,7 +108,7 @@ class Flight:
         self.recorder = Recorder(
             log,
             self.plant.state,
-            self.contact.contact,
+            (self.contact.contact, *self.plant.contacts.values()),
             self.guidance.reference,
             self.stack,
             self.instruments,
@@ -188,6 +188,7 @@ class Flight:
             if "control" not in due:
                 self.guidance.write(tick.t_s)
             self.contact.update(state)
+            plant.observe_contacts(tick.t_s)
             self.recorder.rows(tick.t_s)
 
     def _feel_wall(self, t_s: float) -> None:

@@ -19,12 +19,13 @@ from inspect_cli.records import Command, Lengths, State
 from inspect_cli.simulation.addresses import Addresses, addresses_of, contact_addresses
 from inspect_cli.simulation.plates import Plates
 from inspect_cli.simulation.world import WALL_SENSOR
-from inspect_cli.spatial.arrays import Matrix, Structured, Vector
+from inspect_cli.spatial.arrays import Indices, Matrix, Structured, Vector
 from inspect_cli.spatial.rotations import cross, matrix_to_quaternion, rotate_back
 from inspect_cli.truth.disturbances import Disturbances, Motion
 from inspect_cli.truth.proximity import Proximity
 from inspect_cli.truth.solids import Solids
-from inspect_cli.vehicles.actuators import Rotor, Servo, of_kind
+from inspect_cli.vehicles.actuators import Drive, Rotor, Servo, of_kind
+from inspect_cli.vehicles.contacts import wrench_record
 from inspect_cli.vehicles.kinds import TOOL, Vehicle
 
 
@@ -137,18 +138,27 @@ def read_state(
         row["rotor_thrust"][i] = activation[where.rotor_activations[i]]
 
 
+@kernel
+def read_wrench(places: Indices, sensors: Vector, origin_W: Vector, wrench: Structured) -> None:
+    """Write force and torque into a ContactWrench (1,), the sum over the geoms of a contact.
+
+    ``sensors`` hold force, torque and the position it refers to of what each geom exerts.
+    """
+    row = wrench[0]
+    for k in range(3):
+        row["f_W"][k] = 0.0
+        row["t_W"][k] = 0.0
+    for first in places:
+        force = sensors[first : first + 3]
+        arm = sensors[first + 6 : first + 9] - origin_W
+        turned = cross(arm, force)
+        for k in range(3):
+            row["f_W"][k] -= force[k]
+            row["t_W"][k] -= sensors[first + 3 + k] + turned[k]
+
+
 def _ignore(warning: str) -> None:
     """MuJoCo counts its warnings in the data as well."""
-
-
-def _total(contacts: Sequence[Vector], about_W: Vector) -> Vector:
-    """The sum (6,) in W of net contacts (9,) of force, torque and the position it refers to."""
-    wrench = np.zeros(6)
-    for contact in contacts:
-        force = contact[:3]
-        wrench[:3] += force
-        wrench[3:] += contact[3:6] + cross(contact[6:9] - about_W, force)
-    return wrench
 
 
 def _servo_of(joint: str, servos: Sequence[Servo], model: mujoco.MjModel) -> int | None:
@@ -185,10 +195,18 @@ class Plant:
         self._max_turn = np.array([servo.rate_radps for servo in servos]) / control_hz
         self._held = [(model.joint(joint), _servo_of(joint, servos, model))
                       for joint in vehicle.posture_joints]  # fmt: skip
-        self._contacts = {
-            contact.name: (contact_addresses(model, contact), model.site(contact.frame).id)
+        drives = of_kind(vehicle.actuators, Drive)
+        self._drive_limits = (
+            np.array([drive.max_speed_radps for drive in drives]),
+            np.array([drive.reach_rad for drive in drives]),
+            1.0 / control_hz,
+        )
+        self.contacts = {c.name: wrench_record(c.name).create() for c in vehicle.contacts}
+        """What acts on each contact by name; ``observe_contacts`` brings them up to date."""
+        self._contacts = [
+            (contact_addresses(model, contact), self.data.site_xpos[model.site(contact.frame).id])
             for contact in vehicle.contacts
-        }
+        ]
         self._plates = Plates(model, self.data, solids, vehicle.contacts)
         self._steps_per_placing = max(round(1.0 / (control_hz * model.opt.timestep)), 1)
         self.disturbances = disturbances
@@ -241,14 +259,18 @@ class Plant:
 
     def wall_wrench(self) -> Vector:
         """Force of the contacts on the surface with a force sensor, torque about O_W, (6,) in W."""
-        return _total(self._walls, np.zeros(3))
-
-    def contact_wrench(self, name: str) -> Vector:
-        """Force on a contact and torque about its frame's origin, (6,) in W, of the last step."""
-        places, frame = self._contacts[name]
-        exerted = [self._sensors[first : first + 9] for first in places]
-        wrench: Vector = -_total(exerted, self.data.site_xpos[frame])
+        wrench = np.zeros(6)
+        for contact in self._walls:
+            force = contact[:3]
+            wrench[:3] += force
+            wrench[3:] += contact[3:6] + cross(contact[6:9], force)
         return wrench
+
+    def observe_contacts(self, t_s: float) -> None:
+        """Read what acts on each contact; ``observe`` has refreshed the kinematics."""
+        for record, (places, origin_W) in zip(self.contacts.values(), self._contacts, strict=True):
+            read_wrench(places, self._sensors, origin_W, record.array)
+            record.t_s = t_s
 
     def apply(self, command: Command) -> None:
         """Take a command."""
@@ -263,6 +285,15 @@ class Plant:
             self._ctrl,
             self._dynprm,
         )
+
+        if self._where.drives.size:
+            move_drives(
+                self._where,
+                command.views["drive_speed"],
+                *self._drive_limits,
+                self.data.qpos,
+                self._ctrl,
+            )
 
     def disturb(self, t_s: float) -> None:
         """Set the disturbances of this moment."""

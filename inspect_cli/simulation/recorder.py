@@ -12,7 +12,6 @@ from inspect_cli.records import (
     Reference,
     State,
     SurfaceEstimate,
-    TrueContact,
     TrueDisturbance,
 )
 from inspect_cli.simulation.instruments import Instruments
@@ -31,7 +30,7 @@ class Recorder:
         self,
         log: LogWriter,
         state: State,
-        contact: TrueContact,
+        contacts: tuple[Record, ...],
         reference: Reference,
         stack: FlightStack,
         instruments: Instruments,
@@ -41,7 +40,7 @@ class Recorder:
         self._computed: tuple[Record, ...] = (reference, stack.estimate, stack.command)
         if disturbance is not None:
             self._computed += (disturbance,)
-        continuous = (state, contact, *self._computed, instruments.imu.measurement)
+        continuous = (state, *contacts, *self._computed, instruments.imu.measurement)
         self._taps = [log.tap(record) for record in continuous]
         self._poses = {
             "/pose/estimate": (stack.estimate.p_WB, stack.estimate.q_WB),

@@ -7,6 +7,9 @@ All slide at the Coulomb limit μ N, with the friction μ of the surface that th
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cache
+
+from inspect_cli.records import Record, vector
 
 SETTLING_S = 0.005
 """Time constant in which a stiff contact settles; MuJoCo asks for two steps or more."""
@@ -56,3 +59,19 @@ class PatchContact:
 
 
 Contact = PointContact | WheelContact | PatchContact
+
+
+class ContactWrench(Record):
+    """What is so at one contact of the vehicle; each contact has its own topic below this one."""
+
+    topic = "/truth/contact"
+
+    f_W = vector(3, "N", "W", "force of the surface on the contact")
+    t_W = vector(3, "N·m", "W", "its torque about the origin of the contact's frame")
+
+
+@cache
+def wrench_record(contact: str) -> type[ContactWrench]:
+    """The record of a contact, with the topic ``/truth/contact/<name>``."""
+    topic = f"{ContactWrench.topic}/{contact}"
+    return type(ContactWrench.__name__, (ContactWrench,), {"topic": topic, "__slots__": ()})
