@@ -44,9 +44,9 @@ def dressed(vehicle: Vehicle) -> mujoco.MjSpec:
 
 def _paint(spec: mujoco.MjSpec, vehicle: Vehicle) -> None:
     bodies, tool = vehicle.bodies, spec.site(TOOL).parent
-    coloured = [(spec.body(bodies.base), HULL), (tool, TOOL_COLOUR)]
+    coloured = [(spec.body(name), INVISIBLE) for name in bodies.protected]
     coloured += [(spec.body(name), BOOM) for name in bodies.gear]
-    coloured += [(spec.body(name), INVISIBLE) for name in bodies.protected]
+    coloured += [(spec.body(bodies.base), HULL), (tool, TOOL_COLOUR)]
     for body, colour in coloured:
         for geom in body.geoms:
             geom.rgba = colour

@@ -8,10 +8,11 @@ import mujoco
 import numpy as np
 from worlds import hold_attitude, structure_of
 
-from inspect_cli.schema.geometry import PlaneShape
+from inspect_cli.schema.geometry import PlaneShape, Shape
 from inspect_cli.schema.truth import TruePlatform
 from inspect_cli.simulation.addresses import Addresses
 from inspect_cli.simulation.plant import move_drives
+from inspect_cli.simulation.plates import Plates
 from inspect_cli.simulation.world import build_world
 from inspect_cli.vehicles.actuators import Drive, add_actuators
 from inspect_cli.vehicles.contacts import PatchContact, WheelContact
@@ -75,7 +76,14 @@ def foot_spec(height: float) -> mujoco.MjSpec:
 class Rig:
     """A body on a plane that leans by ``slope`` towards +x, its z_B along the normal."""
 
-    def __init__(self, spec: mujoco.MjSpec, slope: float, friction: float, height: float) -> None:
+    def __init__(
+        self,
+        spec: mujoco.MjSpec,
+        slope: float,
+        friction: float,
+        height: float,
+        hollow: Shape | None = None,
+    ) -> None:
         is_foot = any(geom.name == "plate" for geom in spec.geoms)
         contact = (
             PatchContact("foot", ("plate",), TOOL, LEVER)
@@ -93,8 +101,13 @@ class Rig:
             bodies=Bodies(gear=(), protected=()),
             contacts=(contact,),
         )
-        self.model = build_world(vehicle, TruePlatform(), structure_of([plane], friction))
+        structure = structure_of([hollow or plane], friction)
+        self.model = build_world(vehicle, TruePlatform(), structure)
         self.data = mujoco.MjData(self.model)
+        self._plates = Plates(self.model, self.data, structure.solids, vehicle.contacts)
+        self.plates = self.model.nmocap
+        if hollow is not None:
+            middle = np.array([0.0, 0.0, 0.5])  # its lowest line
         self.q_WB = np.array([np.cos(0.5 * slope), 0.0, np.sin(0.5 * slope), 0.0])
         self.data.qpos[:3] = middle + height * self.normal
         self.data.qpos[3:7] = self.q_WB
@@ -114,6 +127,8 @@ class Rig:
                 move_drives(
                     self._where, self.speed, *limits, CONTROL_STEPS * 1e-3, data.qpos, data.ctrl
                 )
+                mujoco.mj_kinematics(self.model, self.data)
+                self._plates.follow()
             self.data.qfrc_applied[:6] = 0.0
             if held:
                 hold_attitude(self.data, self.q_WB)

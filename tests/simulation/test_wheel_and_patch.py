@@ -8,6 +8,8 @@ import pytest
 from rigs import DRIVE, HALF, INERTIA, LEVER, MASS, RADIUS, G, Rig, foot_spec, wheel_spec
 from scipy import signal
 
+from inspect_cli.schema.geometry import CylinderShape
+
 FRICTION = 0.5
 LEVEL = 0.0
 CREEP_MPS = 1e-4
@@ -128,3 +130,28 @@ def test_a_foot_twists_at_its_torsional_limit() -> None:
         turned.append(2.0 * float(np.arcsin(rig.data.qpos[6])))
     assert abs(turned[0]) < 1e-3
     assert turned[1] == pytest.approx(0.5 * 0.05 * limit / INERTIA, rel=0.1)
+
+
+def test_a_wheel_rolls_and_a_foot_stands_on_the_plates_of_a_hollow_cylinder() -> None:
+    """Each contact has a plate of its own, tangent below it; the axis is along x."""
+    pipe = CylinderShape(
+        center_m=(0.0, 0.0, 2.0),
+        axis=(1.0, 0.0, 0.0),
+        radius_m=1.5,
+        facing=(0.0, 0.0, -1.0),
+        size_m=(3.0, 1.0),
+        side="inside",
+    )
+    for spec, height in ((wheel_spec(), RADIUS), (foot_spec(0.01), 0.01)):
+        rig = Rig(spec, LEVEL, FRICTION, height, pipe)
+        rig.run(0.5, held=True)
+        rig.speed[:] = 5.0
+        rig.run(2.0, held=True)
+        bottom = 0.5 + height
+        assert rig.data.qpos[2] == pytest.approx(bottom, abs=1e-3)
+        weight = np.array(rig.data.sensordata[:3])
+        np.testing.assert_allclose(weight[2], -WEIGHT, atol=0.2)
+        assert rig.plates == 1
+        rolled = RADIUS * rig.data.qpos[7:].sum()
+        assert rig.travel == pytest.approx(rolled, abs=2e-3)
+        assert (rolled > 0.3) == (len(rig.speed) > 0)
