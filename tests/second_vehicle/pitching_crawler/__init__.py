@@ -5,8 +5,8 @@ from __future__ import annotations
 import mujoco
 
 from inspect_cli.vehicles.contacts import PatchContact, WheelContact
+from inspect_cli.vehicles.fully_actuated.rigid_body import nominal_body
 from inspect_cli.vehicles.kinds import TOOL, Bodies
-from inspect_cli.vehicles.rigid_body import nominal_body
 from pitching_crawler.abilities import CrawlerAbilities
 from pitching_crawler.mujoco_model import FOOT, JOINTS, actuators_of, build_spec
 from pitching_crawler.numbers import CrawlerNumbers
