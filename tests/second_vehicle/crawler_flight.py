@@ -1,15 +1,13 @@
-"""Flies a pitching crawler by a script, one mode after the other, on the plant itself."""
+"""Flies a pitching crawler by its own modes, with executive, stack and plant but without a log."""
 
 from __future__ import annotations
-
-from collections.abc import Callable
 
 import numpy as np
 from pitching_crawler import PitchingCrawler
 from pitching_crawler.foot_sensor import EncoderSensor, FootSensor
-from pitching_crawler.modes import MODES
-from pitching_crawler.stack import Order
+from pitching_crawler.modes import CrawlerPlan
 
+from inspect_cli.autonomy.executive import Executive
 from inspect_cli.interfaces import Posture
 from inspect_cli.schema.geometry import PlaneShape
 from inspect_cli.schema.truth import ProximityEffects, TruePlatform
@@ -28,14 +26,14 @@ WALL_X, CEILING_Z = 2.0, 3.0
 WALL = PlaneShape(center_m=(WALL_X, 0.0, 1.5), normal=(-1.0, 0.0, 0.0), size_m=(3.0, 3.0))
 CEILING = PlaneShape(center_m=(-1.0, 0.0, CEILING_Z), normal=(0.0, 0.0, -1.0), size_m=(3.0, 3.0))
 FRICTION = 0.7
-RAMP_S = 1.0
-"""In which a reference's speed rises and falls."""
+LIMIT_S = 60.0
+TICKS_PER_DECISION = 5
 
 
 class Flight:
-    """Plant, sensors, stack and a table of what was logged."""
+    """Plant, sensors, stack, executive and a table of what was seen."""
 
-    def __init__(self, vehicle: PitchingCrawler, seed: int = 1) -> None:
+    def __init__(self, vehicle: PitchingCrawler, plan: CrawlerPlan, seed: int = 1) -> None:
         numbers, lengths = vehicle.numbers, vehicle.capabilities.lengths
         surfaces = [SurfaceTruth(name, shape, FRICTION, None)
                     for name, shape in (("wall", WALL), ("ceiling", CEILING))]  # fmt: skip
@@ -51,71 +49,59 @@ class Flight:
             Proximity(calm, structure.solids, rotor_radii_m(vehicle.actuators)),
             numbers.control_hz,
         )
-        self.vehicle, self.stack = vehicle, vehicle.flight_stack()
+        self.vehicle = vehicle
         self._imu = ImuSensor(numbers.imu, numbers.control_hz, rng)
         self._pose = PoseSensor(numbers.pose, rng)
         self._encoders = EncoderSensor(numbers, lengths)
         self._foot = FootSensor(numbers, rng)
-        self._tick, self._period_s = 0, 1.0 / numbers.control_hz
+        self._period_s = 1.0 / numbers.control_hz
         self._steps = numbers.physics_hz // numbers.control_hz
         self._ticks_per_pose = numbers.control_hz // numbers.pose_hz
         self.rows: dict[str, list[Array]] = {}
         """By name of mode and quantity, one row per tick of control."""
         start = Posture(np.array([0.0, 0.0, numbers.gear_height_m]), UPRIGHT, np.zeros(1))
         self.plant.place(start)
+        self.stack = vehicle.flight_stack(start)
+        context = vehicle.behaviour.context(plan, self.stack, {})
+        self.executive = Executive(vehicle.behaviour, context, LIMIT_S)
+
+    def fly(self) -> None:
+        """Fly all orders."""
         self._pose.sample(self.plant.state)
         self.stack.start(self._pose.measurement)
-        self.order = Order(start.p_WB.copy())
-
-    def fly(
-        self,
-        mode: str,
-        duration_s: float,
-        lead: Callable[[float, Order], None] = lambda t_s, order: None,
-        until: Callable[[], bool] = lambda: False,
-    ) -> None:
-        """Stay in a mode; ``lead`` moves the order, ``until`` ends it before its time."""
-        self.stack.enter(MODES[mode])
-        for tick in range(round(duration_s / self._period_s)):
-            lead(tick * self._period_s, self.order)
-            self._control(mode)
-            if until():
-                return
-
-    def go(self, mode: str, p_WB: Array, duration_s: float) -> None:
-        """Move the reference to a place, from rest to rest."""
-        start = self.order.p_WB.copy()
-        way = p_WB - start
-
-        def lead(t_s: float, order: Order) -> None:
-            s = min(t_s / duration_s, 1.0)
-            order.p_WB = start + way * s**3 * (10.0 - 15.0 * s + 6.0 * s**2)
-            order.v_WB_W = way * 30.0 * s**2 * (1.0 - s) ** 2 / duration_s
-
-        self.fly(mode, duration_s + 1.0, lead)
+        tick = 0
+        while not self.executive.finished:
+            self._control(tick)
+            tick += 1
 
     def logged(self, mode: str, name: str) -> Array:
         """The rows of a quantity while in a mode."""
         return np.array(self.rows[f"{mode}/{name}"])
 
-    def _control(self, mode: str) -> None:
-        t_s, plant, stack = self._tick * self._period_s, self.plant, self.stack
+    def _control(self, tick: int) -> None:
+        t_s, plant, stack = tick * self._period_s, self.plant, self.stack
         state = plant.observe(t_s)
         plant.observe_contacts(t_s)
         self._imu.sample(state)
-        self._imu.measurement.t_s = t_s
         self._encoders.sample(state)
         self._foot.sample(state, plant.contacts["foot"])
-        stack.hear(self._imu.measurement)
-        stack.hear(self._encoders.measurement)
-        if self._tick % self._ticks_per_pose == 0:
+        samples = [self._imu.measurement, self._encoders.measurement, self._foot.measurement]
+        if tick % self._ticks_per_pose == 0:
             self._pose.sample(state)
-            stack.hear(self._pose.measurement)
-        stack.control(self.order)
+            samples.append(self._pose.measurement)
+        for sample in samples:
+            sample.t_s = t_s
+            if (heard := stack.hear(sample)) is not None:
+                self.executive.hear(heard)
+        if tick % TICKS_PER_DECISION == 0:
+            order = self.executive.update(t_s)
+            if order is not None:
+                stack.enter(t_s, order.mode, order.target)
+            stack.armed = self.executive.armed
+        stack.control(t_s)
         plant.apply(stack.command)
-        self._log(mode)
+        self._log(self.executive.mode.name)
         plant.step(self._steps)
-        self._tick += 1
 
     def _log(self, mode: str) -> None:
         state = self.plant.state

@@ -6,10 +6,13 @@ import numpy as np
 import pytest
 from crawler_flight import CEILING_Z, FRICTION, UPRIGHT, WALL_X, Flight
 from pitching_crawler import PitchingCrawler
+from pitching_crawler.modes import MODES, CrawlerPlan, PushTarget
 from pitching_crawler.mujoco_model import FOOT
 from scipy.spatial.transform import Rotation
 
+from inspect_cli.autonomy.modes import Order
 from inspect_cli.interfaces import Posture
+from inspect_cli.vehicles import tilt_rotor
 from inspect_cli.vehicles.actuators import Drive, Rotor
 from inspect_cli.vehicles.kinds import TOOL
 
@@ -17,69 +20,49 @@ pytestmark = pytest.mark.xdist_group("crawler")  # one flight for all
 
 MASS, G = 2.3, 9.81
 PUSH_N, PROP_N = 2.0, 3.0
-CRAWL_MPS, CRAWL_S = 0.2, 6.0
-"""One metre: a second to start, four at speed, a second to stop."""
+CRAWL_M = 1.0
 HELD = slice(-750, None)
 """The last three seconds, 250 ticks each."""
-TOUCHED_N = 0.2
+WALL_TARGET = PushTarget(0, "wall", TOOL, np.array([1.0, 0.0, 0.0]), PUSH_N, 3.0, CRAWL_M)
+CEILING_TARGET = PushTarget(1, "ceiling", FOOT, np.array([0.0, 0.0, 1.0]), PROP_N, 3.0)
 
 
-def near(flight: Flight, direction: np.ndarray, contact: str) -> None:
-    """Move until a contact is felt."""
+def at(x: float, z: float) -> Posture:
+    return Posture(np.array([x, 0.0, z]), UPRIGHT, np.zeros(1))
 
-    def lead(t_s, order):
-        order.v_WB_W = 0.05 * direction
-        order.p_WB = order.p_WB + order.v_WB_W / 250.0
 
-    def touched():
-        return bool(flight.plant.contacts[contact].f_W @ direction < -TOUCHED_N)
-
-    flight.fly("nearing", 10.0, lead, touched)
-    assert touched()
-    flight.order.v_WB_W = np.zeros(3)
-    flight.order.into_W = direction
+PLAN = CrawlerPlan(
+    targets=(WALL_TARGET, CEILING_TARGET),
+    orders=(
+        Order("climbing_out", postures=(at(0.0, 1.0),), speed_mps=0.6),
+        Order("hovering", postures=(at(WALL_X - 0.7, 1.0),), speed_mps=0.6),
+        Order("nearing", target=0),
+        Order("leaning", target=0),
+        Order("crawling", target=0),
+        Order("hovering", postures=(at(WALL_X - 1.0, 2.0),), speed_mps=0.6),
+        Order("hovering", postures=(at(-1.0, CEILING_Z - 0.4),), speed_mps=0.6),
+        Order("nearing", target=1),
+        Order("propping", target=1),
+        Order("hovering", postures=(at(-1.0, CEILING_Z - 0.8),), speed_mps=0.6),
+    ),
+)
 
 
 @pytest.fixture(scope="module")
 def flight():
-    vehicle = PitchingCrawler()
-    flight = Flight(vehicle)
-    flight.fly("standing", 0.3)
-    flight.go("climbing_out", np.array([0.0, 0.0, 1.0]), 3.0)
-    flight.go("hovering", np.array([WALL_X - 0.7, 0.0, 1.0]), 4.0)
-    near(flight, np.array([1.0, 0.0, 0.0]), "wheel")
-
-    level = Posture(np.zeros(3), UPRIGHT, np.zeros(1))
-    axes = vehicle.capabilities.frame_pose(level, TOOL)[1]
-    load = np.array([-PUSH_N, 0.0, 0.0, 0.0, 0.0, 0.0])
-    goal = (flight.plant.state.p_WT.copy(), axes)
-    trimmed = vehicle.capabilities.solve({TOOL: goal}, {TOOL: load}, level)
-    begun = flight.order.p_WB.copy()
-
-    def lean(t_s, order):
-        share = min(t_s, 1.0)
-        order.force_n, order.p_WB = share * PUSH_N, begun + share * (trimmed.p_WB - begun)
-
-    def crawl(t_s, order):
-        order.roll_mps = CRAWL_MPS * min(t_s, 1.0, max(CRAWL_S - t_s, 0.0))
-        order.v_WB_W = np.array([0.0, 0.0, order.roll_mps])
-        order.p_WB = order.p_WB + order.v_WB_W / 250.0
-
-    flight.fly("leaning", 5.0, lean)
-    flight.fly("crawling", CRAWL_S + 1.0, crawl)
-    flight.order.force_n = 0.0
-    flight.order.p_WB = flight.order.p_WB - [0.3, 0.0, 0.0]
-    flight.fly("hovering", 3.0)
-    flight.go("hovering", np.array([-1.0, 0.0, CEILING_Z - 0.4]), 6.0)
-    near(flight, np.array([0.0, 0.0, 1.0]), "foot")
-
-    def prop(t_s, order):
-        order.force_n = PROP_N * min(t_s, 1.0)
-
-    flight.fly("propping", 4.0, prop)
-    flight.trimmed = trimmed
+    flight = Flight(PitchingCrawler(), PLAN)
+    flight.fly()
     assert not flight.plant.diverged
+    assert (flight.executive.status, flight.executive.reason) == ("completed", "")
     return flight
+
+
+def trimmed(flight: Flight) -> Posture:
+    """The planned posture at the place that is touched."""
+    able = flight.vehicle.capabilities
+    load = np.array([-PUSH_N, 0.0, 0.0, 0.0, 0.0, 0.0])
+    goal = (flight.logged("nearing", "p_WT")[0], able.frame_pose(at(0.0, 0.0), TOOL)[1])
+    return able.solve({TOOL: goal}, {TOOL: load}, at(0.0, 0.0))
 
 
 def pitch_of(q_WB: np.ndarray) -> np.ndarray:
@@ -98,11 +81,11 @@ def test_it_leans_as_statics_say(flight):
     """m g tan θ is the force on the wall, and the whole posture is the planned one."""
     pitch = pitch_of(flight.logged("leaning", "q_WB")[HELD])
     assert MASS * G * np.tan(pitch.mean()) == pytest.approx(PUSH_N, rel=0.1)
-    assert pitch.mean() == pytest.approx(pitch_of(flight.trimmed.q_WB[None])[0], rel=0.1)
+    assert pitch.mean() == pytest.approx(pitch_of(trimmed(flight).q_WB[None])[0], rel=0.1)
     hinge = flight.logged("leaning", "joint_angle")[HELD, 0]
-    assert hinge.mean() == pytest.approx(flight.trimmed.arm_angle[0], abs=np.radians(1.0))
-    p_WB = flight.logged("leaning", "p_WB")[-1]
-    np.testing.assert_allclose(p_WB, flight.trimmed.p_WB, atol=0.02)
+    assert hinge.mean() == pytest.approx(trimmed(flight).arm_angle[0], abs=np.radians(1.0))
+    height = flight.logged("leaning", "p_WB")[-1, 2]
+    assert height == pytest.approx(trimmed(flight).p_WB[2], abs=0.03)
 
 
 def test_the_hinge_is_measured_and_never_commanded(flight):
@@ -146,3 +129,14 @@ def test_the_foot_is_pressed_under_the_ceiling_and_its_wrench_is_logged(flight):
     p_WB = flight.logged("propping", "p_WB")[-1]
     assert p_WB[2] + flight.vehicle.numbers.foot_height_m == pytest.approx(CEILING_Z, abs=1e-3)
     assert FOOT in flight.plant.contacts
+
+
+def test_its_modes_are_its_own_and_a_lost_vehicle_gives_up(flight):
+    assert not set(MODES) & set(tilt_rotor.TiltRotor.behaviour.modes)
+    assert [mode.phase for mode in MODES.values() if mode.slides] == ["touching"]
+    far = Order("hovering", postures=(at(0.0, 1.0),), speed_mps=100.0)
+    lost = Flight(PitchingCrawler(), CrawlerPlan((), (far,)))
+    lost.stack.point.p_WB = np.array([5.0, 0.0, 1.0])
+    lost.fly()
+    assert lost.executive.status == "aborted"
+    assert lost.executive.reason == "far from where it shall be"

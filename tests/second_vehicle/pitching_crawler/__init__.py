@@ -4,10 +4,12 @@ from __future__ import annotations
 
 import mujoco
 
+from inspect_cli.interfaces import Posture
 from inspect_cli.vehicles.contacts import PatchContact, WheelContact
 from inspect_cli.vehicles.fully_actuated.rigid_body import nominal_body
 from inspect_cli.vehicles.kinds import TOOL, Bodies
 from pitching_crawler.abilities import CrawlerAbilities
+from pitching_crawler.modes import BEHAVIOUR
 from pitching_crawler.mujoco_model import FOOT, JOINTS, actuators_of, build_spec
 from pitching_crawler.numbers import CrawlerNumbers
 from pitching_crawler.stack import CrawlerStack
@@ -15,6 +17,8 @@ from pitching_crawler.stack import CrawlerStack
 
 class PitchingCrawler:
     """One vehicle, built from its numbers."""
+
+    behaviour = BEHAVIOUR
 
     def __init__(self, numbers: CrawlerNumbers | None = None) -> None:
         self.numbers = numbers or CrawlerNumbers()
@@ -34,6 +38,6 @@ class PitchingCrawler:
         """The nominal MuJoCo model, in free space."""
         return build_spec(self.numbers)
 
-    def flight_stack(self) -> CrawlerStack:
-        """A fresh stack of estimation and control."""
-        return CrawlerStack(self.numbers, self.capabilities, self._body)
+    def flight_stack(self, start: Posture) -> CrawlerStack:
+        """A fresh stack of estimation, guidance and control."""
+        return CrawlerStack(self.numbers, self.capabilities, self._body, start)
