@@ -11,7 +11,7 @@ from worlds import hold_attitude, structure_of
 from inspect_cli.schema.geometry import PlaneShape, Shape
 from inspect_cli.schema.truth import TruePlatform
 from inspect_cli.simulation.addresses import Addresses
-from inspect_cli.simulation.plant import move_drives
+from inspect_cli.simulation.plant_kernels import move_drives
 from inspect_cli.simulation.plates import Plates
 from inspect_cli.simulation.world import build_world
 from inspect_cli.vehicles.actuators import Drive, add_actuators
