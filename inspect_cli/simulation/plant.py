@@ -54,7 +54,7 @@ class Plant:
         proximity: Proximity,
         control_hz: int,
     ) -> None:
-        # MuJoCo would write its warnings into a file where the user stands; ``diverged`` tells.
+        # MuJoCo would write its warnings into a file in the current folder; see ``diverged``.
         mujoco.set_mju_user_warning(_ignore)
         self.model = model
         self.data = mujoco.MjData(model)
@@ -74,7 +74,7 @@ class Plant:
             1.0 / control_hz,
         )
         self.contacts = {c.name: wrench_record(c.name).create() for c in vehicle.contacts}
-        """What acts on each contact by name; ``observe_contacts`` brings them up to date."""
+        """Wrenches by the name of the contact; ``observe_contacts`` brings them up to date."""
         self._contacts = [
             (contact_addresses(model, contact), self.data.site_xpos[model.site(contact.frame).id])
             for contact in vehicle.contacts
@@ -139,7 +139,7 @@ class Plant:
         return wrench
 
     def observe_contacts(self, t_s: float) -> None:
-        """Read what acts on each contact; ``observe`` has refreshed the kinematics."""
+        """Read the wrench on each contact; ``observe`` has refreshed the kinematics."""
         for record, (places, origin_W) in zip(self.contacts.values(), self._contacts, strict=True):
             read_wrench(places, self._sensors, origin_W, record.array)
             record.t_s = t_s

@@ -1,9 +1,9 @@
-"""Plates: what the vehicle's contacts meet of a hollow or irregular surface.
+"""Plates: the boxes that stand for a hollow or irregular surface at the vehicle's contacts.
 
 A plate is a box on a mocap body, one for each surface and each geom of a contact. Before each
 stretch of physics it is placed so that its front is the plane tangent to the true surface at the
 foot of the geom's middle, so that a tip at rest has the very depth and normal that the surface
-gives. What is said of a tip below holds for every such geom. A mocap body has no velocity in
+gives. The rest of this page says "tip" for every such geom. A mocap body has no velocity in
 MuJoCo's constraints and friction there has no memory of places: a plate that is put elsewhere
 neither carries nor kicks the tip.
 
@@ -13,8 +13,8 @@ Between two placings the tip slides s = v Δt and the surface leaves the plane b
 
 A plate is engaged once the tip's middle is on the free side with its foot on the surface, and
 parked when the foot leaves the surface, or the tip is farther than ``REACH_M`` away or deeper
-than ``BEHIND_M``: so what slides off an edge is free at once, and what comes back from behind
-meets nothing.
+than ``BEHIND_M``: so a tip that slides off an edge is free at once, and one that comes
+back from behind touches nothing.
 """
 
 from __future__ import annotations
@@ -102,7 +102,7 @@ class Plates:
         """Whether there is anything to place."""
 
     def reset(self) -> None:
-        """Forget what was touched."""
+        """Park all plates until a tip is in front of them again."""
         self._engaged[:] = False
 
     def follow(self) -> None:

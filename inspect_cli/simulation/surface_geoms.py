@@ -1,4 +1,4 @@
-"""How MuJoCo meets the true surfaces.
+"""The true surfaces as MuJoCo's geoms.
 
 Planes and round surfaces seen from outside are geoms of their own, for everything that touches.
 A surface that is hollow or irregular has no such geom: for each geom of a contact it is a *plate*

@@ -7,7 +7,7 @@ inverse inertia that the compiler gives the contact's body.
 
 Point contact: MuJoCo's normal force f obeys δ̈ + b δ̇ + k δ = R f, R = Â (1 − d)/d, δ the depth. A
 body of mass m pressed by F then moves like (m + 1/R) δ̈ + (b/R) δ̇ + (k/R) δ = F: a spring and a
-damper, and a mass 1/R that is nowhere. A small d makes that mass a few per cent of the vehicle's;
+damper, and a virtual mass 1/R. A small d makes that mass a few per cent of the vehicle's;
 k/R = K and b/R = 2 ζ √(K m) are set by ``solref``, whose negative numbers MuJoCo divides by d.
 Friction sticks by the same law without δ: the tip creeps by R/(impratio b) metres per second and
 newton, a tenth of a millimetre.
@@ -42,15 +42,15 @@ FRICTION_DAMPING_PS = 100.0
 """b of the friction, 1/s; well below the physics rate, so that a stuck tip does not chatter."""
 GROUND_FRICTION = 0.8
 CONTACT_SENSOR = "contact:"
-"""How the names begin of the sensors of everything that touches one geom of a contact."""
+"""Prefix of the sensors' names that measure all that touches one geom of a contact."""
 PROTECTED_SENSOR = "protected:"
-"""How the names begin of the sensors of everything that touches a protected body."""
+"""Prefix of the sensors' names that measure all that touches a protected body."""
 WALL_SENSOR = "wall_sensor:"
-"""How the names begin of what measures the contact of one geom with one surface."""
+"""Prefix of the sensors' names that measure the contact of one geom with one surface."""
 NET_FORCE = 3
 """MuJoCo's reduction of all contacts to their net force at its centre."""
 WRENCH = ("FORCE", "TORQUE", "POS")
-"""What a contact sensor gives: 9 numbers in W, the torque about the position."""
+"""The fields of a contact sensor: 9 numbers in W, the torque about the position."""
 
 
 def build_world(
@@ -178,7 +178,7 @@ def _add_sensor(
 def _add_wall_sensors(
     spec: mujoco.MjSpec, structure: StructureTruth, geom: str, met: Sequence[str]
 ) -> None:
-    """What a geom does to each surface with a force sensor.
+    """Measure force and torque of a geom on each surface with a force sensor.
 
     MuJoCo evaluates them in every step, so that a world without such a surface has none.
     """

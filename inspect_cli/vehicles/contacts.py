@@ -62,7 +62,7 @@ Contact = PointContact | WheelContact | PatchContact
 
 
 class ContactWrench(Record):
-    """What is so at one contact of the vehicle; each contact has its own topic below this one."""
+    """True force and torque on one contact; each contact has a topic of its own below this."""
 
     topic = "/truth/contact"
 
