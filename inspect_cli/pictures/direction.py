@@ -54,7 +54,7 @@ def direct(log: RunLog, result: Result, styles: Mapping[str, MarkStyle]) -> Dire
     """The script of a flight; None where the log holds no motion that can be drawn."""
     plan, vehicle = log.plan(), build_vehicle(log.platform())
     nominal = vehicle.nominal_spec().compile()
-    motion = motion_of(log, nominal)
+    motion = motion_of(log, nominal, vehicle)
     if motion is None:
         return None
     marks = marks_of(log, plan, result, motion, styles)

@@ -133,7 +133,7 @@ def test_the_foot_is_pressed_under_the_ceiling_and_its_wrench_is_logged(flight):
 
 def test_its_modes_are_its_own_and_a_lost_vehicle_gives_up(flight):
     assert not set(MODES) & set(tilt_rotor.TiltRotor.behaviour.modes)
-    assert [mode.phase for mode in MODES.values() if mode.slides] == ["touching"]
+    assert [mode.phase for mode in MODES.values() if mode.slides] == ["contact"]
     far = Order("hovering", postures=(at(0.0, 1.0),), speed_mps=100.0)
     lost = Flight(PitchingCrawler(), CrawlerPlan((), (far,)))
     lost.stack.point.p_WB = np.array([5.0, 0.0, 1.0])

@@ -140,8 +140,8 @@ MODES = by_name(
     Mode("climbing_out", 1, Phase.NEAR_GROUND, _rested, _go),
     Mode("hovering", 2, Phase.FREE, _rested, _go),
     Mode("nearing", 3, Phase.NEAR, _blocked, _near),
-    Mode("leaning", 4, Phase.TOUCHING, _rested, _press),
-    Mode("crawling", 5, Phase.TOUCHING, _rested, _crawl, slides=True),
+    Mode("leaning", 4, Phase.CONTACT, _rested, _press),
+    Mode("crawling", 5, Phase.CONTACT, _rested, _crawl, slides=True),
     Mode("propping", 6, Phase.PERCHED, _rested, _press),
     Mode("giving_up", 7, Phase.SAFE, lambda context: context.elapsed_s >= REST_S, _hover),
 )
