@@ -54,7 +54,7 @@ class Capabilities(Protocol):
 
     @property
     def lengths(self) -> Lengths:
-        """The numbers that shapes in records refer to (``n_rotors``, ``n_joints``, ``n_arm``)."""
+        """The numbers that shapes in records refer to; see ``inspect_cli.records``."""
         ...
 
     @property

@@ -9,8 +9,9 @@ length one (``.array``): cheap to hand to a kernel, and one assignment logs it.
     estimate.p_WB[:] = 0.0        # a view into the array
     estimate.t_s = 0.0            # scalars are assigned
 
-Shapes may name a length that the vehicle decides: ``n_rotors``, ``n_joints`` (tilts, then arm)
-and ``n_arm`` (the arm's share of the joints); one that it does not name is 0.
+Shapes may name a length that the vehicle decides: ``n_rotors``, ``n_joints`` (measured),
+``n_servos`` (commanded by angle), ``n_drives`` (by speed) and ``n_arm`` (stated by a posture);
+one not named is 0.
 
 Frames: see ``inspect_cli.spatial``.
 """
@@ -313,7 +314,8 @@ class Command(Record):
     wrench_B = vector(6, "N, N·m", "B", "wrench that the control law asks for")
     allocated_B = vector(6, "N, N·m", "B", "wrench that the allocation could grant")
     rotor_thrust = vector("n_rotors", "N", "", "thrust asked of each rotor")
-    joint_angle = vector("n_joints", "rad", "", "angle asked of tilt and arm joints")
+    joint_angle = vector("n_servos", "rad", "", "angle asked of tilt and arm joints")
+    drive_speed = vector("n_drives", "rad/s", "", "speed asked of driven wheels")
     saturated = scalar("1", "1 if the allocation had to scale the wrench down, else 0")
 
 

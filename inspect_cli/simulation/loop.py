@@ -42,6 +42,7 @@ from inspect_cli.truth.disturbances import Disturbances
 from inspect_cli.truth.geometry import StructureTruth
 from inspect_cli.truth.proximity import Proximity
 from inspect_cli.truth.snapshot import Truth
+from inspect_cli.vehicles.actuators import rotor_radii_m
 from inspect_cli.vehicles.kinds import Vehicle
 
 PROGRESS_S = 0.1
@@ -75,8 +76,8 @@ class Flight:
         platform, lengths = vehicle.platform, vehicle.capabilities.lengths
         rates = platform.rates
         model = build_world(vehicle, truth.platform, structure)
-        radius_m = vehicle.actuators.rotor_radius_m
-        proximity = Proximity(truth.proximity, structure.solids, radius_m)
+        radii_m = rotor_radii_m(vehicle.actuators)
+        proximity = Proximity(truth.proximity, structure.solids, radii_m)
         gusts = component_rng(seed, "wind")
         disturbances = Disturbances(truth.disturbances, gusts, rates.control_hz)
         self.plant = Plant(
@@ -106,7 +107,7 @@ class Flight:
         self.recorder = Recorder(
             log,
             self.plant.state,
-            self.contact.contact,
+            (self.contact.contact, *self.plant.contacts.values()),
             self.stack,
             [m.sensor.measurement for m in self.mounts if isinstance(m.sensor.measurement, Imu)],
             disturbances.load.record if truth.loads_depend_on_the_flight else None,
@@ -178,6 +179,7 @@ class Flight:
             if "control" not in due:
                 stack.refer(tick.t_s)
             self.contact.update(state)
+            plant.observe_contacts(tick.t_s)
             self.recorder.rows(tick.t_s)
 
     def _listeners(self, mount: Mount) -> tuple[Listener, ...]:

@@ -14,7 +14,6 @@ from inspect_cli.records import (
     Record,
     State,
     SurfaceEstimate,
-    TrueContact,
     TrueDisturbance,
 )
 from inspect_cli.spatial.arrays import Matrix, Vector
@@ -32,7 +31,7 @@ class Recorder:
         self,
         log: LogWriter,
         state: State,
-        contact: TrueContact,
+        contacts: tuple[Record, ...],
         stack: FlightStack,
         inertial: Sequence[Imu],
         disturbance: TrueDisturbance | None,
@@ -41,7 +40,7 @@ class Recorder:
         self._computed: tuple[Record, ...] = (stack.reference, stack.estimate, stack.command)
         if disturbance is not None:
             self._computed += (disturbance,)
-        continuous = (state, contact, *self._computed, *inertial)
+        continuous = (state, *contacts, *self._computed, *inertial)
         self._taps = [log.tap(record) for record in continuous]
         self._poses = {
             "/pose/estimate": (stack.estimate.p_WB, stack.estimate.q_WB),

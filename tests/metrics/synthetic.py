@@ -31,7 +31,7 @@ from inspect_cli.schema.result import Status
 from inspect_cli.schema.vehicle import TiltRotorPlatform
 from inspect_cli.spatial.arrays import Structured, Vector
 
-LENGTHS = {"n_rotors": 12, "n_joints": 6}
+LENGTHS = {"n_rotors": 12, "n_joints": 6, "n_servos": 6}
 WALL_X_M = 2.0
 HEIGHT_M = 1.5
 POINTS = 9

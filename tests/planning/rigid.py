@@ -40,7 +40,7 @@ class RigidVehicle:
 
     @property
     def lengths(self):
-        return {"n_rotors": 12, "n_joints": 6}
+        return {"n_rotors": 12, "n_joints": 6, "n_servos": 6}
 
     def tool_pose(self, posture):
         R_WB = quaternion_to_matrix(posture.q_WB)
@@ -96,7 +96,7 @@ class ArmVehicle:
 
     @property
     def lengths(self):
-        return {"n_rotors": 4, "n_joints": 1}
+        return {"n_rotors": 4, "n_joints": 1, "n_servos": 1}
 
     def angle(self, posture):
         return posture.arm_angle[0] if posture.arm_angle.size else np.radians(self.rest_deg)

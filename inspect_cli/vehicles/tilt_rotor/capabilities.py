@@ -34,7 +34,7 @@ class TiltRotorCapabilities:
         self._p_BT, self._R_BT = tool_transform(platform)
         self._spheres_B = _collision_spheres_B(platform)
         n = len(platform.groups)
-        self.lengths: Lengths = {"n_rotors": 2 * n, "n_joints": n}
+        self.lengths: Lengths = {"n_rotors": 2 * n, "n_joints": n, "n_servos": n}
         self.max_speed_mps = platform.limits.speed_mps
         self.max_acceleration_mps2 = platform.limits.acceleration_mps2
         self.max_angular_rate_radps = platform.limits.angular_rate_radps
