@@ -99,8 +99,8 @@ def report_survey(
     plan = survey.joined()
     unvisited = plan.targets[flown:]
     mission = first.mission()
-    score_all = scorer(first.true_rasters(), mission)
-    assess_all = assessor(mission, first.platform())
+    score_all = scorer(first.true_rasters(), plan.targets)
+    assess_all = assessor(mission, first.platform(), plan.targets)
     joined = joined_result(
         results, unvisited, mission.acceptance, _seed(run), score_all, assess_all
     )
@@ -111,7 +111,7 @@ def report_survey(
     taken = pictured(
         first, results[0], folder, wanted.language, wanted=wanted.pictures, flight=which
     )
-    evaluated = evaluated_points(joined.points, first)
+    evaluated = evaluated_points(joined.points, first, plan)
     document = survey_document(first, joined, results, survey, plan, evaluated, taken)
     return joined, deliver(folder, document, wanted), taken
 

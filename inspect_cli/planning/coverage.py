@@ -144,7 +144,10 @@ class Surveyor:
     def _point(self, label: str, place: Place) -> ContactPoint:
         impedance = self.task.impedance or self._mission.impedance
         coverage, sensor = self.coverage, self.task.instrument
-        return point_on(self.prim, place, label, coverage.on, coverage, impedance, sensor)
+        cell_m = (coverage.pitch_m, coverage.pitch_m)
+        return point_on(
+            self.prim, place, label, coverage.on, coverage, impedance, sensor, cell_m=cell_m
+        )
 
     def _visit(self, point: ContactPoint) -> ContactVisit | list[Reason]:
         """How a point is touched, without the way to it, or why it cannot be."""

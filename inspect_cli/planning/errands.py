@@ -27,6 +27,7 @@ from inspect_cli.planning.feasibility import (
 )
 from inspect_cli.planning.order import visiting_order
 from inspect_cli.planning.path import Stop, Way, find_way
+from inspect_cli.planning.point_cells import cells_of_tasks
 from inspect_cli.planning.points import ContactPoint, in_words, points_of_task
 from inspect_cli.planning.strokes import fault_of, points_along, sliding_s, slowed, stroke_model
 from inspect_cli.planning.visits import (
@@ -98,6 +99,7 @@ def errands_of(
     ``prims`` are the believed surfaces by name, ``drawings`` the strokes by the task's place.
     """
     tip_W = capabilities.tool_pose(hover)[0]
+    cells = cells_of_tasks(mission.tasks, prims)
     number = 1
     for place, task in enumerate(mission.tasks):
         work = task.work
@@ -105,7 +107,7 @@ def errands_of(
         impedance = task.impedance or mission.impedance
         errands: list[Errand]
         if isinstance(work, ContactGrid | ContactPoints):
-            points = points_of_task(task, prims[work.on], number, impedance)
+            points = points_of_task(task, prims[work.on], number, impedance, cells[place])
             ordered = [points[k] for k in visiting_order(work, points, tip_W)]
             errands = [TouchErrand(point, work) for point in ordered]
             tip_W = ordered[-1].in_front(work.standoff_m)

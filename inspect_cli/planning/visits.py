@@ -116,6 +116,7 @@ class ContactVisit:
         ).model_copy(
             update={
                 "sensor": self.point.sensor,
+                "cell_m": self.point.cell_m,
                 "dwell_s": options.dwell_s,
                 "off_target_m": options.off_target_m,
             }

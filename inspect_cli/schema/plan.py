@@ -104,6 +104,9 @@ class Target(Strict):
     press_m: NonNegative
     dwell_s: NonNegative
     standoff_m: NonNegative
+    cell_m: tuple[Positive, Positive] | None = None
+    """Widths along u and v of the part of the surface that the point stands for; None where
+    nothing is touched, and for a point that stands alone."""
     off_target_m: Positive = 0.03
     """A reading taken farther than this from its point, along the surface, does not count."""
     standoff: PostureModel

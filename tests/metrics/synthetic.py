@@ -264,6 +264,7 @@ def _plan() -> Plan:
             "n_W": [-1, 0, 0],
             "q_WT": [np.sqrt(0.5), 0, np.sqrt(0.5), 0],
             "sensor": "half_cell",
+            "cell_m": [0.05, 0.05],
             "press_m": 0.1,
             "dwell_s": 3.0,
             "standoff_m": 0.25,

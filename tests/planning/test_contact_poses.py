@@ -96,7 +96,7 @@ def _touch_ceiling(slope_deg, previous, vehicle):
     slope = np.radians(slope_deg)
     shape = wall(center=(0.0, 0.0, 3.0), normal=(np.sin(slope), 0.0, -np.cos(slope)))
     task = Task.model_validate({"contact_grid": grid(columns=1)["contact_grid"]})
-    point = points_of_task(task, primitive_of(shape), 1, "contact_ndt")[0]
+    point = points_of_task(task, primitive_of(shape), 1, "contact_ndt", None)[0]
     return touches(vehicle, point, previous)[0]
 
 
