@@ -11,7 +11,7 @@ Guidance's, how to hold it is the controller's, which never learns of modes.
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Literal
 
 import numpy as np
@@ -326,7 +326,7 @@ def posture_of(model: PostureModel) -> Posture:
 
 def _lower(posture: Posture, by_m: float) -> Posture:
     down = np.array([0.0, 0.0, by_m])
-    return Posture(posture.p_WB - down, posture.q_WB, posture.arm_angle)
+    return replace(posture, p_WB=posture.p_WB - down)
 
 
 def _is_good(seen: SurfaceEstimate, inputs: FlightInputs) -> bool:

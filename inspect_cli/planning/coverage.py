@@ -1,8 +1,9 @@
 """Covering a surface: its points, those left out and why, their order, and the sorties.
 
-Of the two ways to turn the tool at a point the one with more thrust to spare is taken, whichever
-way leads there; it also takes less energy. Turning about costs time, so the order counts it as a
-distance. A point that cannot be touched is listed with its reasons and does not refuse the mission.
+Of the two ways to turn the tool at a point the one with more thrust to spare is taken (more of the
+vehicle's first margin), whichever way leads there; it also takes less energy. Turning about costs
+time, so the order counts it as a distance. A point that cannot be touched is listed with its
+reasons and does not refuse the mission.
 """
 
 from __future__ import annotations
@@ -13,9 +14,8 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from inspect_cli.errors import InfeasibleError, Problem
-from inspect_cli.interfaces import Capabilities
+from inspect_cli.interfaces import TOOL, Capabilities, Margins, Shortfall
 from inspect_cli.planning.clearance import Scene
-from inspect_cli.planning.contact_poses import touches
 from inspect_cli.planning.errands import unreachable
 from inspect_cli.planning.feasibility import Reason, assess, cable_span_m
 from inspect_cli.planning.lattice import Place, along_m, lattice
@@ -33,8 +33,9 @@ from inspect_cli.schema.tasks import MAX_POINTS, Coverage, Task
 from inspect_cli.spatial.arrays import Points, Vector
 from inspect_cli.spatial.primitives import raycast
 
-WORTH_TURNING_N = 0.5
-"""Thrust to spare that is worth another heading than that of the first start."""
+WORTH_TURNING = {"N": 0.5, "rad": 0.05, "N·m": 0.05, "m": 0.01}
+"""By its unit, what more of the vehicle's first margin is worth another heading than that of the
+first start."""
 CLEAR_OF_OWN_M = 1e-3
 """From the surface to where the look ahead begins, so that it does not see the surface itself."""
 
@@ -158,15 +159,17 @@ class Surveyor:
             self._bases, key=lambda base: cable_span_m(point, base.situation.limits.clamp_W)
         )
         capabilities, scene = self._capabilities, self._scene
+        ways = nearest.situation.touches(point, self._bases[0].hover)
+        if isinstance(ways, Shortfall):
+            return [unreachable(point, ways)]
         best: ContactVisit | None = None
-        for touch in touches(capabilities, point, self._bases[0].hover):
+        for touch in ways:
             found = assess(capabilities, scene, point, touch, nearest.situation.limits)
-            spare_n = found.margins.thrust_n
             if found.reasons:
                 reasons = reasons or list(found.reasons)
-            elif best is None or spare_n > best.assessment.margins.thrust_n + WORTH_TURNING_N:
+            elif best is None or _worth_turning(found.margins, best.assessment.margins):
                 best = ContactVisit(point, self.coverage, touch, (), found)
-        return best or reasons or [unreachable(point)]
+        return best or reasons
 
     def _kept_out(self, point: ContactPoint) -> list[Reason]:
         reasons = []
@@ -224,19 +227,27 @@ class Surveyor:
         capabilities = self._capabilities
         speed_mps = min(self._mission.flight.speed_mps, capabilities.max_speed_mps)
         reach_m = 0.5 * np.pi * speed_mps / capabilities.max_angular_rate_radps
-        first_y = capabilities.tool_pose(self._bases[0].hover)[1][:, 1]
+        first_y = capabilities.frame_pose(self._bases[0].hover, TOOL)[1][:, 1]
         ys = np.array([visit.touch.R_WT[:, 1] for visit in visits])
         places = np.hstack([_tips(visits), reach_m * ys])
         return shortest(places, np.concatenate([self._first_tip(), reach_m * first_y]))
 
     def _first_tip(self) -> Vector:
-        return self._capabilities.tool_pose(self._bases[0].hover)[0]
+        return self._capabilities.frame_pose(self._bases[0].hover, TOOL)[0]
 
     def _tour_m(self, ordered: Sequence[ContactVisit]) -> float:
         if not ordered:
             return 0.0
         path = np.vstack([self._first_tip(), _tips(ordered)])
         return float(np.linalg.norm(np.diff(path, axis=0), axis=1).sum())
+
+
+def _worth_turning(margins: Margins, others: Margins) -> bool:
+    """Whether a posture's first margin is so much larger than another posture's."""
+    name, margin = next(iter(margins.items()), ("", None))
+    if margin is None:
+        return False
+    return margin.value > others[name].value + WORTH_TURNING.get(margin.unit, 0.0)
 
 
 def _tips(visits: Sequence[ContactVisit]) -> Points:

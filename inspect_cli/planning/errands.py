@@ -12,11 +12,18 @@ from typing import Protocol
 
 import numpy as np
 
-from inspect_cli.interfaces import Capabilities, Posture
+from inspect_cli.interfaces import (
+    FREE,
+    TOOL,
+    Capabilities,
+    Posture,
+    Shortfall,
+    least,
+    pushed_along,
+)
 from inspect_cli.planning.clearance import Scene, gap_along
 from inspect_cli.planning.contact_poses import Touch, touches
 from inspect_cli.planning.feasibility import (
-    FREE,
     Assessment,
     Limits,
     Reason,
@@ -63,6 +70,11 @@ class Situation:
     scene: Scene
     limits: Limits
 
+    def touches(self, point: ContactPoint, previous: Posture) -> list[Touch] | Shortfall:
+        """The ways to touch a point from a posture, best first; or why it is out of reach."""
+        force_n = self.capabilities.press_force(point.options.press_m, point.impedance)
+        return touches(self.capabilities, point, force_n, previous)
+
     def way(self, before: Stop, after: Stop) -> Way | list[Reason]:
         """The way from one stop to the next, or why there is none."""
         clearance_m = self.limits.clearance_m
@@ -98,7 +110,7 @@ def errands_of(
 
     ``prims`` are the believed surfaces by name, ``drawings`` the strokes by the task's place.
     """
-    tip_W = capabilities.tool_pose(hover)[0]
+    tip_W = capabilities.frame_pose(hover, TOOL)[0]
     cells = cells_of_tasks(mission.tasks, prims)
     number = 1
     for place, task in enumerate(mission.tasks):
@@ -156,14 +168,17 @@ class TouchErrand:
         point = self.point
         if point.fault:
             return [Reason(point.fault, "give points on the patch, or enlarge it")]
+        ways = situation.touches(point, before.posture)
+        if isinstance(ways, Shortfall):
+            return [unreachable(point, ways), *cable_reasons(point, situation.limits)]
         reasons: list[Reason] = []
-        for touch in touches(situation.capabilities, point, before.posture):
+        for touch in ways:
             found = _reached(situation, point, touch, before)
             if not isinstance(found, list):
                 assessment, way = found
                 return ContactVisit(point, self.options, touch, way, assessment)
             reasons = reasons or found
-        return reasons or [unreachable(point), *cable_reasons(point, situation.limits)]
+        return reasons
 
 
 @dataclass(frozen=True)
@@ -187,18 +202,21 @@ class TraceErrand:
         if fault:
             return [Reason(fault, "draw smaller, or elsewhere")]
         points = points_along(self.prim, self.stroke, self.label, self.trace, self.impedance)
+        ways = situation.touches(points[0], before.posture)
+        if isinstance(ways, Shortfall):
+            return [unreachable(points[0], ways)]
         reasons: list[Reason] = []
-        for first in touches(situation.capabilities, points[0], before.posture):
+        for first in ways:
             found = self._attempt(situation, points, first, before)
             if not isinstance(found, list):
                 return found
             reasons = reasons or found
-        return reasons or [unreachable(points[0])]
+        return reasons
 
     def _attempt(
         self, situation: Situation, points: Sequence[ContactPoint], first: Touch, before: Stop
     ) -> Visit | list[Reason]:
-        line = _line(situation.capabilities, points, first)
+        line = _line(situation, points, first)
         if isinstance(line, Reason):
             return [line]
         worst = _worst(situation, points, line)
@@ -275,11 +293,9 @@ class ServoErrand:
             return found
         capabilities = situation.capabilities
         force_n = capabilities.press_force(self.servo.press_m, self.impedance)
-        _, R_WT = capabilities.tool_pose(found.posture)
-        pushed = np.concatenate([-force_n * R_WT[:, 2], np.zeros(3)])
-        loaded = margin_reasons(
-            capabilities.margins(found.posture, pushed), f"pressing with {force_n:.2f} N"
-        )
+        _, R_WT = capabilities.frame_pose(found.posture, TOOL)
+        margins = capabilities.margins(found.posture, pushed_along(-R_WT[:, 2], force_n))
+        loaded = margin_reasons(margins, f"pressing with {force_n:.2f} N")
         if loaded:
             return loaded
         return ServoVisit(self.label, self.servo, found, capabilities, self.impedance, force_n)
@@ -289,7 +305,7 @@ def _free_pose(situation: Situation, start: ServoStart, before: Stop) -> FreePos
     """A level pose in free air, or why it cannot be."""
     capabilities = situation.capabilities
     q_WB = quaternion_exp(np.array([0.0, 0.0, np.radians(start.heading_deg)]))
-    posture = Posture(np.array(start.position_m), q_WB, before.posture.arm_angle)
+    posture = Posture(np.array(start.position_m), q_WB, before.posture.joint_angle)
     margins = capabilities.margins(posture, FREE)
     gap = gap_along(capabilities, situation.scene, [posture, posture])
     reasons = [
@@ -301,7 +317,7 @@ def _free_pose(situation: Situation, start: ServoStart, before: Stop) -> FreePos
     way = situation.way(before, Stop(posture, np.zeros(3)))
     if isinstance(way, list):
         return way
-    return FreePose(posture, way, margins.thrust_n, gap.structure_m)
+    return FreePose(posture, way, margins, gap.structure_m)
 
 
 def _reached(
@@ -316,14 +332,14 @@ def _reached(
 
 
 def _line(
-    capabilities: Capabilities, points: Sequence[ContactPoint], first: Touch
+    situation: Situation, points: Sequence[ContactPoint], first: Touch
 ) -> list[Touch] | Reason:
     """The touches along a stroke, each turned like the one before; or where there is none."""
     line = [first]
     for point in points[1:]:
-        found = touches(capabilities, point, line[-1].contact)
-        if not found:
-            return unreachable(point)
+        found = situation.touches(point, line[-1].contact)
+        if isinstance(found, Shortfall):
+            return unreachable(point, found)
         line.append(found[0])
     return line
 
@@ -331,7 +347,7 @@ def _line(
 def _worst(
     situation: Situation, points: Sequence[ContactPoint], line: Sequence[Touch]
 ) -> Assessment:
-    """The assessment along a stroke: the least margin, the least gap, every reason once."""
+    """The assessment along a stroke: the least margins, the least gap, every reason once."""
     found = [
         assess(situation.capabilities, situation.scene, point, touch, situation.limits)
         for point, touch in zip(points, line, strict=True)
@@ -339,12 +355,14 @@ def _worst(
     between = gap_along(situation.capabilities, situation.scene, [touch.contact for touch in line])
     reasons = [reason for one in found for reason in one.reasons]
     reasons += gap_reasons(between, situation.limits.clearance_m)
-    tightest = min(found, key=lambda one: one.margins.thrust_n)
     gap = min([between, *(one.gap for one in found)], key=lambda one: one.structure_m)
-    return replace(tightest, gap=gap, reasons=tuple(dict.fromkeys(reasons)))
+    margins = least(one.margins for one in found)
+    return replace(found[0], margins=margins, gap=gap, reasons=tuple(dict.fromkeys(reasons)))
 
 
-def unreachable(point: ContactPoint) -> Reason:
-    """That no posture brings the tool there."""
+def unreachable(point: ContactPoint, short: Shortfall) -> Reason:
+    """That no posture brings the tool there, with what the vehicle says of it."""
     what = f"no posture brings the tool to {in_words(point.p_WC)} along {in_words(-point.n_W)}"
-    return Reason(what, "use a tool at another angle, or touch another surface")
+    if short.reason:
+        what = f"{what}: {short.reason}"
+    return Reason(what, short.hint or "use a tool at another angle, or touch another surface")

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from inspect_cli.autonomy.executive import PAUSE_S, SIGHT_S
-from inspect_cli.interfaces import Capabilities, Posture
+from inspect_cli.interfaces import FREE, Capabilities, Posture
 from inspect_cli.planning.feasibility import clamp_of
 from inspect_cli.planning.path import Way
 from inspect_cli.planning.timing import duration_and_energy, path_m
@@ -94,7 +94,7 @@ def leg_of(
     if stretch.moving_s > 0.0:
         # The tool follows a line of its own; its time is known, its power is that of its end.
         time_s = stretch.moving_s + waiting_s
-        cost_j = time_s * capabilities.hover_power_w(stretch.postures[-1])
+        cost_j = time_s * capabilities.power_w(stretch.postures[-1], FREE)
     else:
         postures = (before, *stretch.postures)
         time_s, cost_j = duration_and_energy(postures, speed_mps, waiting_s, capabilities)

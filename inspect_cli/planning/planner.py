@@ -8,11 +8,10 @@ from dataclasses import replace
 import numpy as np
 
 from inspect_cli.errors import InfeasibleError, Problem
-from inspect_cli.interfaces import Capabilities, Posture
+from inspect_cli.interfaces import FREE, TOOL, Capabilities, FramePose, Posture
 from inspect_cli.planning.clearance import Scene, gap_along
 from inspect_cli.planning.errands import Errand, Situation, errands_of
 from inspect_cli.planning.feasibility import (
-    FREE,
     Limits,
     Reason,
     clamp_of,
@@ -94,9 +93,9 @@ def start_postures(start: Start, capabilities: Capabilities) -> tuple[Posture, P
 
 def _with_arm_at_rest(capabilities: Capabilities, bare: Posture) -> Posture:
     """The posture with its arm's angles; a vehicle takes a posture without them as at rest."""
-    p_WT, R_WT = capabilities.tool_pose(bare)
-    found = capabilities.posture_for_tool(p_WT, R_WT, bare)
-    return bare if found is None else replace(bare, arm_angle=found.arm_angle)
+    tool = FramePose(*capabilities.frame_pose(bare, TOOL))
+    found = capabilities.solve({TOOL: tool}, FREE, bare)
+    return replace(bare, joint_angle=found.joint_angle) if found else bare
 
 
 def check_start(situation: Situation, standing: Posture, hover: Posture) -> None:

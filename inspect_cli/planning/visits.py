@@ -7,19 +7,19 @@ makes visits and joins them; what a kind of work adds to the flight stands here 
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Protocol
 
 import numpy as np
 
 from inspect_cli.autonomy.executive import PAUSE_S
-from inspect_cli.interfaces import Capabilities, Posture
+from inspect_cli.interfaces import TOOL, Capabilities, Margins, Posture
 from inspect_cli.planning.contact_poses import Touch
 from inspect_cli.planning.feasibility import Assessment
 from inspect_cli.planning.path import Stop, Way
 from inspect_cli.planning.points import ContactPoint
 from inspect_cli.schema.base import Triple
-from inspect_cli.schema.plan import Following, LegKind, PostureModel, Stroke, Target
+from inspect_cli.schema.plan import Following, LegKind, MarginModel, PostureModel, Stroke, Target
 from inspect_cli.schema.tasks import ContactOptions, Hold, Servo
 from inspect_cli.spatial.arrays import Vector
 from inspect_cli.spatial.rotations import matrix_to_quaternion
@@ -175,7 +175,7 @@ class FreePose:
 
     posture: Posture
     way: Way
-    thrust_margin_n: float
+    margins: Margins
     clearance_m: float
 
 
@@ -276,8 +276,8 @@ class ServoVisit:
     def _ahead(self, distance_m: float) -> Posture:
         """The start pose moved along the tool's axis."""
         here = self.pose.posture
-        _, R_WT = self.capabilities.tool_pose(here)
-        return Posture(here.p_WB + distance_m * R_WT[:, 2], here.q_WB, here.arm_angle)
+        _, R_WT = self.capabilities.frame_pose(here, TOOL)
+        return replace(here, p_WB=here.p_WB + distance_m * R_WT[:, 2])
 
 
 def touching_target(
@@ -285,7 +285,6 @@ def touching_target(
 ) -> Target:
     """The part of a target that every touch of a believed surface has."""
     w, x, y, z = (float(value) for value in matrix_to_quaternion(touch.R_WT))
-    tilt_rad = found.margins.tilt_rad
     options = point.options
     return Target.model_validate(
         {
@@ -305,8 +304,7 @@ def touching_target(
             "standoff": posture_model(touch.standoff),
             "contact": posture_model(touch.contact),
             "expected_force_n": found.force_n,
-            "thrust_margin_n": found.margins.thrust_n,
-            "tilt_margin_rad": tilt_rad if np.isfinite(tilt_rad) else None,
+            "margins": margin_models(found.margins),
             "clearance_m": found.gap.structure_m,
         }
     )
@@ -321,7 +319,7 @@ def _looking_target(
     pose: FreePose,
 ) -> Target:
     """The part of a target in free air: the tool's own place and axis stand for the surface's."""
-    p_WT, R_WT = capabilities.tool_pose(pose.posture)
+    p_WT, R_WT = capabilities.frame_pose(pose.posture, TOOL)
     w, x, y, z = (float(value) for value in matrix_to_quaternion(np.ascontiguousarray(R_WT)))
     here = posture_model(pose.posture)
     return Target.model_validate(
@@ -342,11 +340,19 @@ def _looking_target(
             "standoff": here,
             "contact": here,
             "expected_force_n": 0.0,
-            "thrust_margin_n": pose.thrust_margin_n,
-            "tilt_margin_rad": None,
+            "margins": margin_models(pose.margins),
             "clearance_m": pose.clearance_m if np.isfinite(pose.clearance_m) else None,
         }
     )
+
+
+def margin_models(margins: Margins) -> dict[str, MarginModel]:
+    """The margins as they are written; what has no limit is left out."""
+    return {
+        name: MarginModel(value=margin.value, unit=margin.unit)
+        for name, margin in margins.items()
+        if np.isfinite(margin.value)
+    }
 
 
 def posture_model(posture: Posture) -> PostureModel:
@@ -355,7 +361,7 @@ def posture_model(posture: Posture) -> PostureModel:
     return PostureModel(
         p_WB=triple(posture.p_WB),
         q_WB=(w, x, y, z),
-        arm_angle_rad=tuple(float(angle) for angle in posture.arm_angle),
+        arm_angle_rad=tuple(float(angle) for angle in posture.joint_angle),
     )
 
 

@@ -33,6 +33,13 @@ class PostureModel(Strict):
     arm_angle_rad: tuple[float, ...] = ()
 
 
+class MarginModel(Strict):
+    """What is left of one of the vehicle's limits."""
+
+    value: float
+    unit: str
+
+
 class FitReport(Strict):
     """How well a primitive explains its points."""
 
@@ -114,9 +121,8 @@ class Target(Strict):
     contact: PostureModel
     """The vehicle with its tip on the surface; the set-point lies ``press_m`` behind it."""
     expected_force_n: NonNegative
-    thrust_margin_n: float
-    tilt_margin_rad: float | None
-    """None where tilts turn freely."""
+    margins: dict[str, MarginModel] = {}
+    """The least of each on the way in and out, by the vehicle's own names."""
     clearance_m: float | None
     """Least distance of the body from the structure on the way in and out, or in a pose; None
     where no structure is known."""

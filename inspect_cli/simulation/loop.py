@@ -15,7 +15,7 @@ import numpy as np
 from inspect_cli.autonomy.executive import Executive, posture_of
 from inspect_cli.guidance.local_surface import LocalSurface
 from inspect_cli.guidance.pursuit import Pursuit
-from inspect_cli.interfaces import Posture
+from inspect_cli.interfaces import TOOL, Posture
 from inspect_cli.log.writer import LogWriter
 from inspect_cli.records import State, SurfaceEstimate
 from inspect_cli.schema.plan import Plan, Target
@@ -224,7 +224,7 @@ class Flight:
         """(p_WT, R_WT) by the estimate, with the arm where it was asked to be."""
         estimate, arm_angle = self.stack.estimate, self.guidance.reference.arm_angle
         posture = Posture(estimate.p_WB, estimate.q_WB, arm_angle)
-        return self._capabilities.tool_pose(posture)
+        return self._capabilities.frame_pose(posture, TOOL)
 
     def _decide(self, t_s: float) -> None:
         """The mission rate: surroundings, divergence, executive."""

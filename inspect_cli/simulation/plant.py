@@ -155,7 +155,7 @@ class Plant:
         self.data.qpos[3:7] = posture.q_WB
         # The arm's joints come last, and so do their servos: they hold what they stand at.
         for last in (self.data.qpos, self.data.ctrl, self.data.act):
-            last[len(last) - self._n_arm :] = posture.arm_angle
+            last[len(last) - self._n_arm :] = posture.joint_angle
         mujoco.mj_forward(self.model, self.data)
         self.observe(0.0)
 

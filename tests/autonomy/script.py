@@ -18,7 +18,7 @@ from inspect_cli.records import (
     Reference,
     SurfaceEstimate,
 )
-from inspect_cli.schema.plan import Leg, LegKind, Plan, PostureModel, Target
+from inspect_cli.schema.plan import Leg, LegKind, MarginModel, Plan, PostureModel, Target
 from inspect_cli.spatial.arrays import Vector
 
 TICK_S = 0.02
@@ -49,8 +49,7 @@ def target(index: int) -> Target:
         standoff=posture(1.2),
         contact=posture(1.45),
         expected_force_n=1.8,
-        thrust_margin_n=5.0,
-        tilt_margin_rad=None,
+        margins={"thrust": MarginModel(value=5.0, unit="N")},
         clearance_m=0.5,
     )
 

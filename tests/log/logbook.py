@@ -24,7 +24,7 @@ from inspect_cli.records import (
 from inspect_cli.schema.geometry import CylinderShape, PlaneShape
 from inspect_cli.schema.loading import load_platform
 from inspect_cli.schema.mission import Mission
-from inspect_cli.schema.plan import Leg, Plan, PlannedSurface, PostureModel, Target
+from inspect_cli.schema.plan import Leg, MarginModel, Plan, PlannedSurface, PostureModel, Target
 from inspect_cli.schema.truth import TruthModel
 
 LENGTHS = {"n_rotors": 12, "n_joints": 6, "n_arm": 0}
@@ -133,8 +133,7 @@ def plan() -> Plan:
         standoff=there,
         contact=there,
         expected_force_n=1.8,
-        thrust_margin_n=3.0,
-        tilt_margin_rad=None,
+        margins={"thrust": MarginModel(value=3.0, unit="N")},
         clearance_m=0.2,
     )
     return Plan(

@@ -271,8 +271,7 @@ def _plan() -> Plan:
             "standoff": _posture(point - [0.25, 0, 0]),
             "contact": _posture(point),
             "expected_force_n": 1.8,
-            "thrust_margin_n": 5.0,
-            "tilt_margin_rad": None,
+            "margins": {"thrust": {"value": 5.0, "unit": "N"}},
             "clearance_m": 0.1,
         }
         targets.append(target)

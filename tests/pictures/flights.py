@@ -13,7 +13,7 @@ from inspect_cli.records import Command, Estimate, Mode, Reading, Reference, Sta
 from inspect_cli.schema.geometry import CylinderShape, PlaneShape, Shape, SphereShape
 from inspect_cli.schema.loading import load_platform
 from inspect_cli.schema.mission import Mission
-from inspect_cli.schema.plan import Leg, Plan, PlannedSurface, PostureModel, Target
+from inspect_cli.schema.plan import Leg, MarginModel, Plan, PlannedSurface, PostureModel, Target
 from inspect_cli.schema.result import PointResult, Result
 
 LENGTHS = {"n_rotors": 12, "n_joints": 6, "n_arm": 0}
@@ -64,7 +64,7 @@ def plan(shape: Shape = WALL, count: int = 3) -> Plan:
                 surface="surface", uv_m=(0.15 * (k - 1), 0.0), p_WC=tuple(p_WC), n_W=tuple(n_W),
                 q_WT=(0.5, 0.5, 0.5, 0.5), sensor="half_cell", press_m=0.1, dwell_s=0.2,
                 standoff_m=0.2, standoff=body, contact=body, expected_force_n=1.8,
-                thrust_margin_n=3.0, tilt_margin_rad=None, clearance_m=0.2,
+                margins={"thrust": MarginModel(value=3.0, unit="N")}, clearance_m=0.2,
             )
         )  # fmt: skip
     leg = Leg(kind="transit", target=0, postures=(home,), speed_mps=0.5, duration_s=1.0)

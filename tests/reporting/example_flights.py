@@ -355,8 +355,7 @@ def _plan(
             "standoff": _posture(world(u, v) - [STANDOFF_M, 0, 0]),
             "contact": _posture(world(u, v)),
             "expected_force_n": FORCE_N,
-            "thrust_margin_n": 5.0,
-            "tilt_margin_rad": None,
+            "margins": {"thrust": {"value": 5.0, "unit": "N"}},
             "clearance_m": 0.12,
         }
         for k, (u, v) in enumerate(places)
