@@ -112,6 +112,62 @@ def pushed_along(direction_W: Vector, force_n: float) -> Loads:
     return {TOOL: np.concatenate([force_n * direction_W, np.zeros(3)])}
 
 
+class Pressing(Protocol):
+    """What a task says of how its tool is pressed on a surface."""
+
+    @property
+    def press_m(self) -> float:
+        """How far the set-point lies behind the surface."""
+        ...
+
+
+@dataclass(frozen=True)
+class DepthLaw:
+    """Contact by a set-point behind the surface: an impedance makes a force of the depth.
+
+    ``profile`` names the impedance, ``expected_force_n`` is the steady normal force that follows.
+    Raises ValueError for a depth or a force below zero.
+    """
+
+    depth_m: float
+    profile: str
+    expected_force_n: float
+    kind: Literal["depth"] = "depth"
+
+    def __post_init__(self) -> None:
+        if not (self.depth_m >= 0.0 and self.expected_force_n >= 0.0):
+            raise ValueError(f"depth {self.depth_m} m and force {self.expected_force_n} N are ≥ 0")
+
+
+@dataclass(frozen=True)
+class ForceLaw:
+    """Contact by a normal force that is controlled itself; the set-point is on the surface.
+
+    Raises ValueError for a force below zero.
+    """
+
+    force_n: float
+    kind: Literal["force"] = "force"
+
+    def __post_init__(self) -> None:
+        if not self.force_n >= 0.0:
+            raise ValueError(f"force {self.force_n} N is ≥ 0")
+
+    @property
+    def depth_m(self) -> float:
+        """How far the set-point lies behind the surface."""
+        return 0.0
+
+    @property
+    def expected_force_n(self) -> float:
+        """The steady normal force."""
+        return self.force_n
+
+
+ContactLaw = DepthLaw | ForceLaw
+"""How a vehicle presses its tool on a surface."""
+
+
 class Capabilities(Protocol):
     """What planning and guidance may know of a vehicle; computed on its nominal model."""
 
@@ -168,11 +224,11 @@ class Capabilities(Protocol):
 
     @property
     def impedances(self) -> tuple[str, ...]:
-        """The names of the impedance profiles, in the order that ``Reference.impedance`` counts."""
+        """Profiles that a mission may name, in the order that ``Reference.impedance`` counts."""
         ...
 
-    def press_force(self, press_m: float, impedance: str) -> float:
-        """Steady normal contact force, N, with the set-point ``press_m`` behind the surface."""
+    def contact_law(self, pressing: Pressing, profile: str) -> ContactLaw:
+        """What a task's way of pressing means for this vehicle, flown with a profile."""
         ...
 
     def power_w(self, posture: Posture, loads: Loads) -> float:

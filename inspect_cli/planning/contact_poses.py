@@ -16,6 +16,7 @@ from inspect_cli.interfaces import (
     FREE,
     TOOL,
     Capabilities,
+    ContactLaw,
     FramePose,
     Posture,
     Shortfall,
@@ -56,18 +57,18 @@ def tool_attitudes(n_W: Vector, y_near_W: Vector) -> tuple[Matrix, Matrix]:
 
 
 def touches(
-    capabilities: Capabilities, point: ContactPoint, force_n: float, previous: Posture
+    capabilities: Capabilities, point: ContactPoint, law: ContactLaw, previous: Posture
 ) -> list[Touch] | Shortfall:
     """The ways to touch a point, best first; or why it is out of reach.
 
     Of the two, first the one closer to the heading of the posture ``previous``. The vehicle
-    stays upright, z_B · z_W > 0, wherever one of them allows it. ``force_n`` is the normal force
-    with which the surface pushes the tool in contact.
+    stays upright, z_B · z_W > 0, wherever one of them allows it. In contact and at the set-point
+    the surface pushes the tool with the force that the law of contact expects.
     """
     y_near_W = capabilities.frame_pose(previous, TOOL)[1][:, 1]
     found, short = [], Shortfall()
     for R_WT in tool_attitudes(point.n_W, y_near_W):
-        touch = _touch(capabilities, point, R_WT, force_n, previous)
+        touch = _touch(capabilities, point, R_WT, law, previous)
         if isinstance(touch, Touch):
             found.append(touch)
         else:
@@ -76,15 +77,18 @@ def touches(
 
 
 def _touch(
-    capabilities: Capabilities, point: ContactPoint, R_WT: Matrix, force_n: float, previous: Posture
+    capabilities: Capabilities,
+    point: ContactPoint,
+    R_WT: Matrix,
+    law: ContactLaw,
+    previous: Posture,
 ) -> Touch | Shortfall:
-    options = point.options
-    pushed = pushed_along(point.n_W, force_n)
+    pushed = pushed_along(point.n_W, law.expected_force_n)
     postures: list[Posture] = []
     for distance_m, loads in (
-        (options.standoff_m, FREE),
+        (point.options.standoff_m, FREE),
         (0.0, pushed),
-        (-options.press_m, pushed),
+        (-law.depth_m, pushed),
     ):
         near = postures[-1] if postures else previous
         goals = {TOOL: FramePose(point.in_front(distance_m), R_WT)}

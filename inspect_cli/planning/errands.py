@@ -72,8 +72,8 @@ class Situation:
 
     def touches(self, point: ContactPoint, previous: Posture) -> list[Touch] | Shortfall:
         """The ways to touch a point from a posture, best first; or why it is out of reach."""
-        force_n = self.capabilities.press_force(point.options.press_m, point.impedance)
-        return touches(self.capabilities, point, force_n, previous)
+        law = self.capabilities.contact_law(point.options, point.impedance)
+        return touches(self.capabilities, point, law, previous)
 
     def way(self, before: Stop, after: Stop) -> Way | list[Reason]:
         """The way from one stop to the next, or why there is none."""
@@ -292,13 +292,14 @@ class ServoErrand:
         if isinstance(found, list):
             return found
         capabilities = situation.capabilities
-        force_n = capabilities.press_force(self.servo.press_m, self.impedance)
+        law = capabilities.contact_law(self.servo, self.impedance)
+        force_n = law.expected_force_n
         _, R_WT = capabilities.frame_pose(found.posture, TOOL)
         margins = capabilities.margins(found.posture, pushed_along(-R_WT[:, 2], force_n))
         loaded = margin_reasons(margins, f"pressing with {force_n:.2f} N")
         if loaded:
             return loaded
-        return ServoVisit(self.label, self.servo, found, capabilities, self.impedance, force_n)
+        return ServoVisit(self.label, self.servo, found, capabilities, self.impedance, law)
 
 
 def _free_pose(situation: Situation, start: ServoStart, before: Stop) -> FreePose | list[Reason]:

@@ -7,7 +7,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from inspect_cli.interfaces import FREE, Capabilities, Margins, least, pushed_along
+from inspect_cli.interfaces import FREE, Capabilities, ContactLaw, Margins, least, pushed_along
 from inspect_cli.planning.clearance import Gap, Scene, gap_along
 from inspect_cli.planning.contact_poses import Touch
 from inspect_cli.planning.points import ContactPoint, in_words
@@ -39,7 +39,7 @@ class Limits:
 class Assessment:
     """What a touch comes to; it can be flown when there are no reasons against it."""
 
-    force_n: float
+    law: ContactLaw
     margins: Margins
     gap: Gap
     reasons: tuple[Reason, ...]
@@ -53,7 +53,8 @@ def assess(
     In contact the surface pushes the tool's tip along its outward normal with the expected
     force f: the wrench on the tip is (f n, 0).
     """
-    force_n = capabilities.press_force(point.options.press_m, point.impedance)
+    law = capabilities.contact_law(point.options, point.impedance)
+    force_n = law.expected_force_n
     free = capabilities.margins(touch.standoff, FREE)
     loaded = capabilities.margins(touch.contact, pushed_along(point.n_W, force_n))
     gap = gap_along(capabilities, scene, [touch.standoff, touch.contact])
@@ -64,7 +65,7 @@ def assess(
         *margin_reasons(loaded, f"pressing with {force_n:.2f} N"),
         *gap_reasons(gap, limits.clearance_m),
     ]
-    return Assessment(force_n, least([free, loaded]), gap, tuple(reasons))
+    return Assessment(law, least([free, loaded]), gap, tuple(reasons))
 
 
 def clamp_of(start: Start) -> Vector:

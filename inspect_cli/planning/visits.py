@@ -13,7 +13,7 @@ from typing import Protocol
 import numpy as np
 
 from inspect_cli.autonomy.executive import PAUSE_S
-from inspect_cli.interfaces import TOOL, Capabilities, Margins, Posture
+from inspect_cli.interfaces import TOOL, Capabilities, ContactLaw, Margins, Posture
 from inspect_cli.planning.contact_poses import Touch
 from inspect_cli.planning.feasibility import Assessment
 from inspect_cli.planning.path import Stop, Way
@@ -224,7 +224,7 @@ class ServoVisit:
     pose: FreePose
     capabilities: Capabilities
     impedance: str
-    expected_force_n: float
+    law: ContactLaw
 
     @property
     def way(self) -> Way:
@@ -266,10 +266,9 @@ class ServoVisit:
         ).model_copy(
             update={
                 "dwell_s": servo.settle_s,
-                "press_m": servo.press_m,
+                "law": self.law,
                 "standoff_m": servo.standoff_m,
                 "following": following,
-                "expected_force_n": self.expected_force_n,
             }
         )
 
@@ -298,12 +297,11 @@ def touching_target(
             "n_W": triple(point.n_W),
             "q_WT": (w, x, y, z),
             "sensor": None,
-            "press_m": options.press_m,
+            "law": found.law,
             "dwell_s": 0.0,
             "standoff_m": options.standoff_m,
             "standoff": posture_model(touch.standoff),
             "contact": posture_model(touch.contact),
-            "expected_force_n": found.force_n,
             "margins": margin_models(found.margins),
             "clearance_m": found.gap.structure_m,
         }
@@ -334,12 +332,11 @@ def _looking_target(
             "n_W": triple(-R_WT[:, 2]),
             "q_WT": (w, x, y, z),
             "sensor": None,
-            "press_m": 0.0,
+            "law": None,
             "dwell_s": 0.0,
             "standoff_m": 0.0,
             "standoff": here,
             "contact": here,
-            "expected_force_n": 0.0,
             "margins": margin_models(pose.margins),
             "clearance_m": pose.clearance_m if np.isfinite(pose.clearance_m) else None,
         }

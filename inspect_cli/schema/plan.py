@@ -7,6 +7,7 @@ from typing import Annotated, Literal, Self
 
 from pydantic import AfterValidator, Field, model_validator
 
+from inspect_cli.interfaces import ContactLaw
 from inspect_cli.schema.base import Name, NonNegative, Positive, Strict, Triple
 from inspect_cli.schema.geometry import Shape
 
@@ -108,7 +109,8 @@ class Target(Strict):
     """Outward normal of the fitted surface there."""
     q_WT: Quaternion
     sensor: Literal["half_cell"] | None
-    press_m: NonNegative
+    law: Annotated[ContactLaw, Field(discriminator="kind")] | None = None
+    """How the tool is pressed on the surface; None where nothing is touched."""
     dwell_s: NonNegative
     standoff_m: NonNegative
     cell_m: tuple[Positive, Positive] | None = None
@@ -119,13 +121,22 @@ class Target(Strict):
     standoff: PostureModel
     """The vehicle with its tool ``standoff_m`` from the surface."""
     contact: PostureModel
-    """The vehicle with its tip on the surface; the set-point lies ``press_m`` behind it."""
-    expected_force_n: NonNegative
+    """The vehicle with its tip on the surface, held there by the law of contact."""
     margins: dict[str, MarginModel] = {}
     """The least of each on the way in and out, by the vehicle's own names."""
     clearance_m: float | None
     """Least distance of the body from the structure on the way in and out, or in a pose; None
     where no structure is known."""
+
+    @property
+    def press_m(self) -> float:
+        """How far the set-point lies behind the surface."""
+        return 0.0 if self.law is None else self.law.depth_m
+
+    @property
+    def expected_force_n(self) -> float:
+        """The steady normal force while the tool presses."""
+        return 0.0 if self.law is None else self.law.expected_force_n
 
 
 class Leg(Strict):

@@ -8,7 +8,7 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from inspect_cli.autonomy.executive import Executive
-from inspect_cli.interfaces import Posture
+from inspect_cli.interfaces import DepthLaw, Posture
 from inspect_cli.records import (
     Estimate,
     InvalidReason,
@@ -43,12 +43,11 @@ def target(index: int) -> Target:
         n_W=(-1.0, 0.0, 0.0),
         q_WT=(1.0, 0.0, 0.0, 0.0),
         sensor="half_cell",
-        press_m=PRESS_M,
+        law=DepthLaw(PRESS_M, "contact_ndt", 1.8),
         dwell_s=3.0,
         standoff_m=STANDOFF_M,
         standoff=posture(1.2),
         contact=posture(1.45),
-        expected_force_n=1.8,
         margins={"thrust": MarginModel(value=5.0, unit="N")},
         clearance_m=0.5,
     )

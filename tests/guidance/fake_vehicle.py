@@ -6,7 +6,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from inspect_cli.interfaces import TOOL, FramePose, Margin, Posture, Shortfall
+from inspect_cli.interfaces import TOOL, DepthLaw, FramePose, Margin, Posture, Shortfall
 from inspect_cli.schema.plan import MarginModel, PostureModel, Target
 from inspect_cli.spatial.rotations import matrix_to_quaternion, quaternion_to_matrix
 
@@ -49,8 +49,8 @@ class FakeVehicle:
     def margins(self, posture, loads):
         return {"thrust": Margin(1.0, "N")}
 
-    def press_force(self, press_m, impedance):
-        return 18.0 * press_m
+    def contact_law(self, pressing, profile):
+        return DepthLaw(pressing.press_m, profile, 18.0 * pressing.press_m)
 
     def power_w(self, posture, loads):
         return 500.0
@@ -88,12 +88,11 @@ def target_at(vehicle, p_WC, n_W, R_WT, standoff_m=0.25, press_m=0.1) -> Target:
         n_W=tuple(n_W.tolist()),
         q_WT=tuple(matrix_to_quaternion(np.ascontiguousarray(R_WT)).tolist()),
         sensor="half_cell",
-        press_m=press_m,
+        law=DepthLaw(press_m, "contact_ndt", 1.8),
         dwell_s=3.0,
         standoff_m=standoff_m,
         standoff=model(-standoff_m),
         contact=model(0.0),
-        expected_force_n=1.8,
         margins={"thrust": MarginModel(value=5.0, unit="N")},
         clearance_m=0.2,
     )

@@ -14,7 +14,7 @@ import pytest
 from fake_vehicle import FakeVehicle
 
 from inspect_cli.guidance.pursuit import Pursuit
-from inspect_cli.interfaces import Posture
+from inspect_cli.interfaces import DepthLaw, Posture
 from inspect_cli.records import SurfaceEstimate
 from inspect_cli.schema.plan import Following, MarginModel, PostureModel, Target
 from inspect_cli.spatial.primitives import cylinder, normal_at, plane, point_at, project
@@ -56,12 +56,11 @@ def following_target(vehicle, **way) -> Target:
         n_W=tuple((-R_WT[:, 2]).tolist()),
         q_WT=tuple(matrix_to_quaternion(np.ascontiguousarray(R_WT)).tolist()),
         sensor=None,
-        press_m=PRESS_M,
+        law=DepthLaw(PRESS_M, "contact_ndt", 1.8),
         dwell_s=2.0,
         standoff_m=STANDOFF_M,
         standoff=here,
         contact=here,
-        expected_force_n=1.8,
         margins={"thrust": MarginModel(value=5.0, unit="N")},
         clearance_m=0.2,
     )

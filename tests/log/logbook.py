@@ -9,6 +9,7 @@ from typing import Any
 
 import numpy as np
 
+from inspect_cli.interfaces import DepthLaw
 from inspect_cli.log.writer import LogWriter
 from inspect_cli.records import (
     Command,
@@ -127,12 +128,11 @@ def plan() -> Plan:
         n_W=(-1.0, 0.0, 0.0),
         q_WT=(0.5, 0.5, 0.5, 0.5),
         sensor="half_cell",
-        press_m=0.1,
+        law=DepthLaw(0.1, "contact_ndt", 1.8),
         dwell_s=3.0,
         standoff_m=0.25,
         standoff=there,
         contact=there,
-        expected_force_n=1.8,
         margins={"thrust": MarginModel(value=3.0, unit="N")},
         clearance_m=0.2,
     )

@@ -46,6 +46,7 @@ ESTIMATE_ROLL_ERROR_RAD = 0.005
 WRENCH_ERROR = np.array([0.3, 0.4, 0.0, 0.0, 0.03, 0.04])
 NORMAL_ERROR_DEG = 2.0
 FORCE_N = 1.8
+LAW = {"kind": "depth", "depth_m": 0.1, "profile": "contact_ndt", "expected_force_n": FORCE_N}
 READING_ERROR_V = 0.002
 RESISTANCE_FACTOR = 1.01
 
@@ -265,12 +266,11 @@ def _plan() -> Plan:
             "q_WT": [np.sqrt(0.5), 0, np.sqrt(0.5), 0],
             "sensor": "half_cell",
             "cell_m": [0.05, 0.05],
-            "press_m": 0.1,
+            "law": LAW,
             "dwell_s": 3.0,
             "standoff_m": 0.25,
             "standoff": _posture(point - [0.25, 0, 0]),
             "contact": _posture(point),
-            "expected_force_n": 1.8,
             "margins": {"thrust": {"value": 5.0, "unit": "N"}},
             "clearance_m": 0.1,
         }

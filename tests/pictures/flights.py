@@ -7,6 +7,7 @@ from pathlib import Path
 
 import numpy as np
 
+from inspect_cli.interfaces import DepthLaw
 from inspect_cli.log.reader import RunLog, read_log
 from inspect_cli.log.writer import LogWriter
 from inspect_cli.records import Command, Estimate, Mode, Reading, Reference, State
@@ -62,8 +63,9 @@ def plan(shape: Shape = WALL, count: int = 3) -> Plan:
             Target(
                 index=k, label=str(k + 1), kind="contact", impedance="contact_ndt",
                 surface="surface", uv_m=(0.15 * (k - 1), 0.0), p_WC=tuple(p_WC), n_W=tuple(n_W),
-                q_WT=(0.5, 0.5, 0.5, 0.5), sensor="half_cell", press_m=0.1, dwell_s=0.2,
-                standoff_m=0.2, standoff=body, contact=body, expected_force_n=1.8,
+                q_WT=(0.5, 0.5, 0.5, 0.5), sensor="half_cell",
+                law=DepthLaw(0.1, "contact_ndt", 1.8), dwell_s=0.2,
+                standoff_m=0.2, standoff=body, contact=body,
                 margins={"thrust": MarginModel(value=3.0, unit="N")}, clearance_m=0.2,
             )
         )  # fmt: skip

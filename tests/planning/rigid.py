@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from inspect_cli.interfaces import TOOL, Posture, Shortfall
+from inspect_cli.interfaces import TOOL, DepthLaw, Posture, Shortfall
 from inspect_cli.spatial.rotations import matrix_to_quaternion, quaternion_to_matrix
 from inspect_cli.vehicles.tilt_rotor.capabilities import thrust_margin, tilt_margin
 
@@ -78,8 +78,8 @@ class RigidVehicle:
         left = np.radians(self.max_tilt_deg) - tilt
         return {"thrust": thrust_margin(thrust), "tilt": tilt_margin(left)}
 
-    def press_force(self, press_m, impedance):
-        return 18.0 * press_m
+    def contact_law(self, pressing, profile):
+        return DepthLaw(pressing.press_m, profile, 18.0 * pressing.press_m)
 
     def power_w(self, posture, loads):
         return 500.0 + 100.0 * (1.0 - quaternion_to_matrix(posture.q_WB)[2, 2])
@@ -136,8 +136,8 @@ class ArmVehicle:
         pushed = float(np.linalg.norm(loads.get(TOOL, np.zeros(6))))
         return {"thrust": thrust_margin(10.0 - 0.1 * pushed)}
 
-    def press_force(self, press_m, impedance):
-        return 10.0 * press_m
+    def contact_law(self, pressing, profile):
+        return DepthLaw(pressing.press_m, profile, 10.0 * pressing.press_m)
 
     def power_w(self, posture, loads):
         return 300.0

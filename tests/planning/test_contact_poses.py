@@ -8,7 +8,7 @@ from builders import ball, column, grid, plan, wall
 from rigid import ArmVehicle, RigidVehicle
 
 from inspect_cli.errors import InfeasibleError
-from inspect_cli.interfaces import TOOL, Posture, Shortfall
+from inspect_cli.interfaces import TOOL, DepthLaw, Posture, Shortfall
 from inspect_cli.planning.contact_poses import tool_attitudes, touches
 from inspect_cli.planning.points import points_of_task
 from inspect_cli.schema.mission import Task
@@ -99,7 +99,7 @@ def _touch_ceiling(slope_deg, previous, vehicle):
     shape = wall(center=(0.0, 0.0, 3.0), normal=(np.sin(slope), 0.0, -np.cos(slope)))
     task = Task.model_validate({"contact_grid": grid(columns=1)["contact_grid"]})
     point = points_of_task(task, primitive_of(shape), 1, "contact_ndt", None)[0]
-    return touches(vehicle, point, 1.8, previous)[0]
+    return touches(vehicle, point, DepthLaw(0.1, "contact_ndt", 1.8), previous)[0]
 
 
 @pytest.mark.parametrize("heading_deg", [0.0, 35.0, 120.0, -150.0])
@@ -162,7 +162,7 @@ def test_the_vehicle_hears_the_load_of_the_contact_and_none_at_the_standoff():
     point = points_of_task(
         Task.model_validate(grid(columns=1)), primitive_of(wall()), 1, "contact_ndt", None
     )[0]
-    touches(vehicle, point, 1.8, Posture(np.zeros(3), LEVEL))
+    touches(vehicle, point, DepthLaw(0.1, "contact_ndt", 1.8), Posture(np.zeros(3), LEVEL))
     pushed = np.array([-1.8, 0.0, 0.0, 0.0, 0.0, 0.0])
     for k, (p, loads) in enumerate(vehicle.asked):
         if k % 3 == 0:

@@ -9,7 +9,8 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
-from inspect_cli.interfaces import FramePose, Posture, Shortfall
+from inspect_cli.interfaces import DepthLaw, FramePose, Posture, Shortfall
+from inspect_cli.schema.tasks import Pressing
 from inspect_cli.schema.vehicle import TiltRotorPlatform
 from inspect_cli.vehicles import build_vehicle
 from inspect_cli.vehicles.rigid_body import nominal_body
@@ -75,8 +76,11 @@ def test_the_arms_angle_counts_from_straight_down(
 def test_press_force_of_the_contact_profile(pitched: Pitched, pitch_deg: float) -> None:
     capabilities = build_vehicle(pitched(pitch_deg)).capabilities
     # The stiffness is the same along all axes: 0.25 · 72 N/m · 0.10 m whatever the arm's angle.
-    assert capabilities.press_force(0.10, "contact_ndt") == pytest.approx(1.8, rel=1e-9)
-    assert capabilities.press_force(0.05, "contact_ndt") == pytest.approx(0.9, rel=1e-9)
+    for press_m, force_n in ((0.10, 1.8), (0.05, 0.9)):
+        law = capabilities.contact_law(Pressing(press_m=press_m), "contact_ndt")
+        assert isinstance(law, DepthLaw)
+        assert (law.depth_m, law.profile) == (press_m, "contact_ndt")
+        assert law.expected_force_n == pytest.approx(force_n, rel=1e-9)
 
 
 class Statics:

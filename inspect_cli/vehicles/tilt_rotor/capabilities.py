@@ -6,7 +6,18 @@ import numpy as np
 
 from inspect_cli.control.impedance import RigidBody, steady_press_force
 from inspect_cli.control.tilt_allocation import TiltAllocation
-from inspect_cli.interfaces import TOOL, Goals, Loads, Margin, Margins, Posture, Shortfall
+from inspect_cli.interfaces import (
+    TOOL,
+    ContactLaw,
+    DepthLaw,
+    Goals,
+    Loads,
+    Margin,
+    Margins,
+    Posture,
+    Pressing,
+    Shortfall,
+)
 from inspect_cli.records import Lengths
 from inspect_cli.schema.vehicle import TiltRotorPlatform
 from inspect_cli.spatial.arrays import Matrix, Points, Vector
@@ -78,10 +89,11 @@ class TiltRotorCapabilities:
             margins["tilt"] = tilt_margin(float(np.radians(unit.range_deg)) - tilt)
         return margins
 
-    def press_force(self, press_m: float, impedance: str) -> float:
-        """Steady normal force, N, with the set-point ``press_m`` behind the surface."""
-        control = self._platform.control
-        return steady_press_force(control, control.profiles[impedance], self._R_BT, press_m)
+    def contact_law(self, pressing: Pressing, profile: str) -> ContactLaw:
+        """The set-point behind the surface, and the force that the profile makes of it."""
+        control, depth_m = self._platform.control, pressing.press_m
+        force_n = steady_press_force(control, control.profiles[profile], self._R_BT, depth_m)
+        return DepthLaw(depth_m, profile, force_n)
 
     def power_w(self, posture: Posture, loads: Loads) -> float:
         """Electrical power at rest: ideal induced power over figure of merit, plus avionics.

@@ -12,7 +12,18 @@ from canted_octorotor.file_model import (
 )
 from canted_octorotor.fixed_allocation import FixedAllocation
 from inspect_cli.control.impedance import GRAVITY_MPS2, RigidBody, steady_press_force
-from inspect_cli.interfaces import TOOL, Goals, Loads, Margin, Margins, Posture, Shortfall
+from inspect_cli.interfaces import (
+    TOOL,
+    ContactLaw,
+    DepthLaw,
+    Goals,
+    Loads,
+    Margin,
+    Margins,
+    Posture,
+    Pressing,
+    Shortfall,
+)
 from inspect_cli.spatial.arrays import Matrix, Points, Vector
 from inspect_cli.spatial.rotations import matrix_to_quaternion, quaternion_to_matrix
 
@@ -83,10 +94,11 @@ class CantedOctorotorCapabilities:
             "wrist": Margin(left_rad, "rad", lack_rad, "touch a surface that leans less"),
         }
 
-    def press_force(self, press_m: float, impedance: str) -> float:
+    def contact_law(self, pressing: Pressing, profile: str) -> ContactLaw:
         _, R_BT = tool_in_body(self._platform.wrist, 0.0)
         control = self._platform.control
-        return steady_press_force(control, control.profiles[impedance], R_BT, press_m)
+        force_n = steady_press_force(control, control.profiles[profile], R_BT, pressing.press_m)
+        return DepthLaw(pressing.press_m, profile, force_n)
 
     def power_w(self, posture: Posture, loads: Loads) -> float:
         thrusts = np.maximum(self._thrusts(posture, loads), 0.0)
