@@ -172,6 +172,11 @@ class Capabilities(Protocol):
     """What planning and guidance may know of a vehicle; computed on its nominal model."""
 
     @property
+    def tasks(self) -> frozenset[str]:
+        """The kinds of tasks that its modes can do, by their names in the mission."""
+        ...
+
+    @property
     def lengths(self) -> Lengths:
         """The numbers that shapes in records refer to (``n_rotors``, ``n_joints``, ``n_arm``)."""
         ...

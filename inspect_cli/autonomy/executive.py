@@ -27,6 +27,7 @@ from inspect_cli.records import (
     Reading,
     SurfaceEstimate,
 )
+from inspect_cli.schema.flight_times import PAUSE_S
 from inspect_cli.schema.plan import Leg, LegKind, Plan, PostureModel, Target
 from inspect_cli.schema.result import Status
 from inspect_cli.spatial.arrays import Vector
@@ -35,10 +36,6 @@ SETTLE_S = 1.0
 """On the ground before take-off, for the filter to find its biases."""
 STAND_S = 1.5
 """On the ground after the motors have stopped."""
-PAUSE_S = 0.2
-"""At rest at the end of each stretch before the next begins."""
-SIGHT_S = 0.1
-"""From then on until the next image of the depth camera, on the average."""
 SAFE_HOVER_S = 3.0
 """Hover at rest after an abort before the run ends."""
 NEAREST_SHARE = 0.4

@@ -14,7 +14,9 @@ import numpy as np
 
 from inspect_cli.assessment.spacing import PLACE_DECIMALS, spacing_of
 from inspect_cli.planning.points import places_of_task
-from inspect_cli.schema.tasks import ContactGrid, ContactPoints, Task
+from inspect_cli.schema.tasks import Task
+from inspect_cli.schema.tasks.contact_grid import ContactGrid
+from inspect_cli.schema.tasks.contact_points import ContactPoints
 from inspect_cli.spatial.arrays import Structured
 
 Cell = tuple[float, float]

@@ -8,7 +8,10 @@ from dataclasses import dataclass
 import numpy as np
 
 from inspect_cli.schema.base import Triple
-from inspect_cli.schema.tasks import ContactGrid, ContactPoints, Instrument, Pressing, Task
+from inspect_cli.schema.tasks import Task
+from inspect_cli.schema.tasks.base import Instrument, Pressing
+from inspect_cli.schema.tasks.contact_grid import ContactGrid
+from inspect_cli.schema.tasks.contact_points import ContactPoints
 from inspect_cli.spatial.arrays import Structured, Vector
 from inspect_cli.spatial.primitives import normal_at, point_at, project
 

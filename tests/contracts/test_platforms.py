@@ -13,7 +13,7 @@ import pytest
 from inspect_cli.schema.json_schema import committed_file
 from inspect_cli.schema.loading import load_platform
 from inspect_cli.schema.strict_yaml import read_yaml
-from inspect_cli.schema.tasks import Pressing
+from inspect_cli.schema.tasks.base import Pressing
 from inspect_cli.schema.vehicle import PLATFORM_KINDS, PlatformBase, TiltRotorPlatform
 from inspect_cli.vehicles import VEHICLES, build_vehicle
 

@@ -27,6 +27,7 @@ class FakeVehicle:
     standing_height_m: float = 0.2
     reach: bool = True
     frames: tuple[str, ...] = (TOOL,)
+    tasks: frozenset[str] = frozenset()
 
     @property
     def lengths(self):

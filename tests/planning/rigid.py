@@ -39,6 +39,7 @@ class RigidVehicle:
     impedances: tuple[str, ...] = ("contact_ndt",)
     standing_height_m: float = 0.25
     frames: tuple[str, ...] = (TOOL,)
+    tasks: frozenset[str] = frozenset()
 
     @property
     def lengths(self):
@@ -99,6 +100,7 @@ class ArmVehicle:
     impedances: tuple[str, ...] = ("contact_ndt",)
     standing_height_m: float = 0.25
     frames: tuple[str, ...] = (TOOL,)
+    tasks: frozenset[str] = frozenset()
 
     @property
     def lengths(self):

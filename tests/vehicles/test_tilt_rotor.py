@@ -10,7 +10,7 @@ import pytest
 from scipy.spatial.transform import Rotation
 
 from inspect_cli.interfaces import DepthLaw, FramePose, Posture, Shortfall
-from inspect_cli.schema.tasks import Pressing
+from inspect_cli.schema.tasks.base import Pressing
 from inspect_cli.schema.vehicle import TiltRotorPlatform
 from inspect_cli.vehicles import build_vehicle
 from inspect_cli.vehicles.rigid_body import nominal_body

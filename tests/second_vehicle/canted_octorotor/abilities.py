@@ -24,6 +24,7 @@ from inspect_cli.interfaces import (
     Pressing,
     Shortfall,
 )
+from inspect_cli.schema.tasks import tasks_with
 from inspect_cli.spatial.arrays import Matrix, Points, Vector
 from inspect_cli.spatial.rotations import matrix_to_quaternion, quaternion_to_matrix
 
@@ -45,6 +46,7 @@ class CantedOctorotorCapabilities:
         self.max_angular_rate_radps = platform.limits.angular_rate_radps
         self.standing_height_m = platform.core.gear_height_m
         self.frames = (TOOL,)
+        self.tasks = tasks_with({"hold", "approach", "press", "slide", "retreat"})
         self.impedances = tuple(platform.control.profiles)
 
     def frame_pose(self, posture: Posture, frame: str) -> tuple[Vector, Matrix]:
