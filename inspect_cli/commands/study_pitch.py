@@ -245,7 +245,19 @@ PITCH = Study(
         external=number(1e3 * POSITION_SD_M["external"], 0),
         onboard=number(1e3 * POSITION_SD_M["onboard"], 0),
     ),
-    factors=(Factor("pitch", "pitch", "p", "m", (0.1, 0.15, 0.25, 0.5), _pitch, _with_pitch),),
+    factors=(
+        Factor(
+            option="pitch",
+            metavar="P,P,…",
+            help="pitches of the grid, m",
+            name="pitch",
+            symbol="p",
+            unit="m",
+            values=(0.1, 0.15, 0.25, 0.5),
+            base=_pitch,
+            changed=_with_pitch,
+        ),
+    ),
     columns=(
         StudyColumn(metric=POINTS, heading="Points", unit="1"),
         StudyColumn(metric=SORTIES, heading="Sorties", unit="1"),

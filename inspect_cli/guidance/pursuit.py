@@ -92,6 +92,8 @@ class Pursuit:
         self.reference.arm_angle[:] = posture.joint_angle
         self.implausible = 0
         """Surface estimates that were not followed because they contradict what is believed."""
+        self.tracks_surface = False
+        """Whether the surface that is seen corrects the reference; see ``track``."""
         self._surfaces = surfaces
         self._trajectory = Trajectory.resting(0.0, posture)
         self._approach: _Approach | None = None
@@ -153,6 +155,11 @@ class Pursuit:
             self._arrival_s = approach.following.end_s
             return
         self._follow(Trajectory(self._along_stroke(t_s, approach, limits)))
+
+    def track(self, t_s: float, surface: SurfaceEstimate) -> None:
+        """``observe`` the surface if the mode asks for that."""
+        if self.tracks_surface:
+            self.observe(t_s, surface)
 
     def observe(self, t_s: float, surface: SurfaceEstimate) -> None:
         """Correct the approach by an estimate of the local surface.
@@ -331,10 +338,4 @@ class Pursuit:
         """
         goals = {TOOL: FramePose(aim.set_point(depth_m), aim.R_WT)}
         loads = pushed_along(aim.n_W, target.expected_force_n) if depth_m > 0.0 else FREE
-        return self.capabilities.solve(goals, loads, planned_posture(target)) or None
-
-
-def planned_posture(target: Target) -> Posture:
-    """The posture of the target's contact, by the plan."""
-    contact = target.contact
-    return Posture(np.array(contact.p_WB), np.array(contact.q_WB), np.array(contact.arm_angle_rad))
+        return self.capabilities.solve(goals, loads, target.contact.posture) or None

@@ -66,12 +66,7 @@ def test_tool_meets_the_surface_head_on_and_level(name, vehicle):
             (target.contact, 0.0),
             (press[target.index], -target.press_m),
         ):
-            p_WT, R_WT = vehicle.frame_pose(
-                Posture(
-                    np.array(posture.p_WB), np.array(posture.q_WB), np.array(posture.arm_angle_rad)
-                ),
-                TOOL,
-            )
+            p_WT, R_WT = vehicle.frame_pose(posture.posture, TOOL)
             np.testing.assert_allclose(p_WT, p_WC + distance * n, atol=1e-9)
             np.testing.assert_allclose(R_WT[:, 2], -n, atol=1e-9)
             assert abs(R_WT[2, 1]) < EXACT

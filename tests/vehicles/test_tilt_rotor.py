@@ -13,7 +13,7 @@ from inspect_cli.interfaces import DepthLaw, FramePose, Posture, Shortfall
 from inspect_cli.schema.tasks.base import Pressing
 from inspect_cli.schema.vehicle import TiltRotorPlatform
 from inspect_cli.vehicles import build_vehicle
-from inspect_cli.vehicles.rigid_body import nominal_body
+from inspect_cli.vehicles.fully_actuated.rigid_body import nominal_body
 from inspect_cli.vehicles.tilt_rotor.model import build_spec, tool_transform
 
 Pitched = Callable[[float], TiltRotorPlatform]

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from typing import get_args
-
 import numpy as np
 
 from inspect_cli.control.impedance import RigidBody, steady_press_force
@@ -21,17 +19,15 @@ from inspect_cli.interfaces import (
     Shortfall,
 )
 from inspect_cli.records import Lengths
-from inspect_cli.schema.plan import LegKind
 from inspect_cli.schema.tasks import tasks_with
 from inspect_cli.schema.vehicle import TiltRotorPlatform
 from inspect_cli.spatial.arrays import Matrix, Points, Vector
 from inspect_cli.spatial.constants import AIR_DENSITY_KGPM3, GRAVITY_MPS2
 from inspect_cli.spatial.rotations import matrix_to_quaternion, quaternion_to_matrix
+from inspect_cli.vehicles.fully_actuated import BEHAVIOUR
 from inspect_cli.vehicles.tilt_rotor.model import tool_transform
 
 ARM_SPHERE_M = 0.03
-MODES = frozenset(get_args(LegKind))
-"""A rigid, fully actuated vehicle with a camera flies every kind of leg."""
 BODY = "body"
 """The frame B."""
 BARE_TIP_SHARE = 0.35
@@ -53,7 +49,7 @@ class TiltRotorCapabilities:
         self._p_BT, self._R_BT = tool_transform(platform)
         self._frames_B = {BODY: (np.zeros(3), np.eye(3)), TOOL: (self._p_BT, self._R_BT)}
         self.frames = tuple(self._frames_B)
-        self.tasks = tasks_with(MODES)
+        self.tasks = tasks_with(BEHAVIOUR.modes)
         self._spheres_B = _collision_spheres_B(platform)
         n = len(platform.groups)
         self.lengths: Lengths = {"n_rotors": 2 * n, "n_joints": n}

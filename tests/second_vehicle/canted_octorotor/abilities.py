@@ -27,6 +27,7 @@ from inspect_cli.interfaces import (
 from inspect_cli.schema.tasks import tasks_with
 from inspect_cli.spatial.arrays import Matrix, Points, Vector
 from inspect_cli.spatial.rotations import matrix_to_quaternion, quaternion_to_matrix
+from inspect_cli.vehicles.fully_actuated import BEHAVIOUR
 
 AIR_DENSITY_KGPM3 = 1.225
 WRIST_SPHERE_M = 0.04
@@ -46,7 +47,7 @@ class CantedOctorotorCapabilities:
         self.max_angular_rate_radps = platform.limits.angular_rate_radps
         self.standing_height_m = platform.core.gear_height_m
         self.frames = (TOOL,)
-        self.tasks = tasks_with({"hold", "approach", "press", "slide", "retreat"})
+        self.tasks = tasks_with(BEHAVIOUR.modes)
         self.impedances = tuple(platform.control.profiles)
 
     def frame_pose(self, posture: Posture, frame: str) -> tuple[Vector, Matrix]:

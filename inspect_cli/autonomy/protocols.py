@@ -1,23 +1,21 @@
-"""Whom the executive works with: a Guidance that moves the reference, a Judge of readings."""
+"""What a vehicle's modes work with: a Guidance that moves the reference, a Judge of readings."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
 from typing import Protocol
 
-from inspect_cli.interfaces import Posture
-from inspect_cli.records import Probe, Reading, Reference, SurfaceEstimate
+from inspect_cli.interfaces import FlightStack, Posture
+from inspect_cli.records import Probe, Reading, SurfaceEstimate
 from inspect_cli.schema.plan import Target
 from inspect_cli.spatial.arrays import Vector
 
 
 class Guidance(Protocol):
-    """What the executive hands its wishes to; see ``guidance.pursuit``."""
+    """Moves the reference of a vehicle that follows poses; see ``guidance.pursuit``."""
 
-    @property
-    def reference(self) -> Reference:
-        """The reference that is being written."""
-        ...
+    tracks_surface: bool
+    """Whether the surface that is seen corrects the reference."""
 
     def go_to(self, t_s: float, postures: Sequence[Posture], speed_mps: float) -> None:
         """Pass postures at rest, one after the other."""
@@ -49,6 +47,15 @@ class Guidance(Protocol):
 
     def arrived(self, t_s: float) -> bool:
         """Whether the reference has come to rest at its goal."""
+        ...
+
+
+class GuidedStack(FlightStack, Protocol):
+    """A flight stack whose reference is moved by a Guidance."""
+
+    @property
+    def guidance(self) -> Guidance:
+        """What moves its reference."""
         ...
 
 

@@ -1,4 +1,4 @@
-"""The flight stack that every fully actuated vehicle of ours shares; allocation is its own.
+"""Estimation and impedance control of a fully actuated vehicle; allocation is the kind's own.
 
 IMU ─▶ error-state filter ◀─ pose        (estimate; of the tracker or of the odometry)
           │
@@ -32,7 +32,7 @@ class Allocation(Protocol):
         ...
 
 
-class ImpedanceStack:
+class ImpedanceControl:
     """Filter, observer, impedance law and allocation of one vehicle."""
 
     def __init__(
@@ -67,19 +67,19 @@ class ImpedanceStack:
         """Begin at rest at a measured pose."""
         self._filter.start(pose, self.estimate)
 
-    def on_imu(self, imu: Imu) -> None:
+    def propagate(self, imu: Imu) -> None:
         """Propagate the estimate with an inertial sample."""
         self._filter.propagate(imu, self.estimate)
 
-    def on_pose(self, pose: Pose) -> bool:
+    def correct(self, pose: Pose) -> bool:
         """Correct the estimate with a pose measurement; False when it was refused."""
         return self._filter.correct(pose, self.estimate)
 
-    def control(self, reference: Reference, flying: bool) -> None:
-        """Write the command; idle motors, and an observer at rest, when not ``flying``."""
+    def update(self, reference: Reference, armed: bool) -> None:
+        """Write the command; idle motors, and an observer at rest, when not ``armed``."""
         if self._arm_angle.size:
             self._move_arm(reference.arm_angle)
-        if not flying:
+        if not armed:
             self._idle()
             return
         if not self._flying:
