@@ -122,7 +122,7 @@ def _attach(log: LogWriter, loaded: Loaded, plan: Plan, modes: ModeTable, seed: 
         names.MISSION: loaded.mission,
         names.PLATFORM: loaded.platform,
         names.PLAN: plan,
-        names.MODES: modes,
+        names.MODE_TABLE: modes,
         names.TRUTH: loaded.truth,
     }
     for name, model in models.items():

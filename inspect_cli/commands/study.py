@@ -30,9 +30,9 @@ from inspect_cli.metrics.flight import Flight
 from inspect_cli.regression.executors import OpenExecutor, local_executors
 from inspect_cli.regression.flights import FlightEnd, FlightTask, Fly, fly_all
 from inspect_cli.regression.run import Progress, counted
-from inspect_cli.reporting.html import html
-from inspect_cli.reporting.language import language as language_of
-from inspect_cli.reporting.study import study_document
+from inspect_cli.reporting.screen.html import html
+from inspect_cli.reporting.studies.document import study_document
+from inspect_cli.reporting.words.language import language as language_of
 from inspect_cli.schema.coverage import CoveragePlan
 from inspect_cli.schema.explain import suggest
 from inspect_cli.schema.loading import load_mission

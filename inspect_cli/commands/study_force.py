@@ -22,9 +22,9 @@ from inspect_cli.metrics.flight import Flight, root_mean_square
 from inspect_cli.metrics.force_sensor import measured_force
 from inspect_cli.metrics.spec import MetricSpec
 from inspect_cli.records import Reference, State, WallForce
-from inspect_cli.reporting.figures_study import PREDICTED, force_figure
-from inspect_cli.reporting.published import TABLE_IV
-from inspect_cli.reporting.text import say
+from inspect_cli.reporting.studies.sweep_figures import PREDICTED, force_figure
+from inspect_cli.reporting.words.published import TABLE_IV
+from inspect_cli.reporting.words.text import say
 from inspect_cli.schema.loading import Loaded
 from inspect_cli.schema.study import StudyColumn
 

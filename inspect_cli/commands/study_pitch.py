@@ -20,7 +20,7 @@ from inspect_cli.commands.pitch_sampling import POSITION_SD_M, PitchSampler
 from inspect_cli.commands.plan import plan_loaded, vehicle_of
 from inspect_cli.commands.sweeps import Factor, Study, revalidated, shortest
 from inspect_cli.errors import InputError, Location, Problem
-from inspect_cli.reporting.figures_pitch import (
+from inspect_cli.reporting.studies.pitch_figures import (
     ACTIVE,
     DETECTED,
     DURATION,
@@ -35,7 +35,7 @@ from inspect_cli.reporting.figures_pitch import (
     cost_figure,
     pitch_figure,
 )
-from inspect_cli.reporting.pitch_findings import (
+from inspect_cli.reporting.words.pitch_findings import (
     FALSELY_ACTIVE,
     OF_AREA,
     OF_SITES,
@@ -44,7 +44,7 @@ from inspect_cli.reporting.pitch_findings import (
     Thresholds,
     written,
 )
-from inspect_cli.reporting.text import number, say
+from inspect_cli.reporting.words.text import number, say
 from inspect_cli.schema.coverage import CoveragePlan
 from inspect_cli.schema.loading import Loaded
 from inspect_cli.schema.plan import Plan

@@ -17,8 +17,8 @@ from pydantic import BaseModel, ValidationError
 
 from inspect_cli.errors import InputError
 from inspect_cli.metrics.spec import MetricSpec
-from inspect_cli.reporting.figure import Figure
-from inspect_cli.reporting.text import Text
+from inspect_cli.reporting.figures.figure import Figure
+from inspect_cli.reporting.words.text import Text
 from inspect_cli.schema.coverage import CoveragePlan
 from inspect_cli.schema.loading import Loaded
 from inspect_cli.schema.plan import Plan

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 MISSION, PLATFORM, PLAN = "mission.json", "platform.json", "plan.json"
 """Attachments without which a log cannot be evaluated."""
-MODES = "modes.json"
+MODE_TABLE = "modes.json"
 """Attachment: the vehicle's table of modes (``schema.modes``), which numbers in a log refer to."""
 TRUTH = "truth.json"
 """Attachment of simulated flights only."""

@@ -96,7 +96,7 @@ class RunLog:
 
     def modes(self) -> ModeTable:
         """What the numbers of modes in ``/reference`` stand for."""
-        return self._model(names.MODES, ModeTable)
+        return self._model(names.MODE_TABLE, ModeTable)
 
     def truth(self) -> TruthModel | None:
         """What was so in a simulated flight; None for a real one."""
@@ -183,7 +183,7 @@ def read_log(path: Path) -> RunLog:
 
 
 def _require_attachments(raw: RawLog) -> None:
-    needed = (names.MISSION, names.PLATFORM, names.PLAN, names.MODES)
+    needed = (names.MISSION, names.PLATFORM, names.PLAN, names.MODE_TABLE)
     missing = [name for name in needed if name not in raw.attachments]
     if missing:
         what = f"the log was cut before its {missing[0]} was written: there is nothing to evaluate"

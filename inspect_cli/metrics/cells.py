@@ -23,7 +23,7 @@ LEAST_SAMPLES, MOST_SAMPLES = 10, 60
 """Along the edge of a cell."""
 NEIGHBOURS = 12
 """Points with cells of one size that may share a place."""
-TOUCHING = 1.0 - 1e-6
+APART = 1.0 - 1e-6
 """In widths: points at least this far apart do not share a place."""
 
 Owners = NDArray[np.intp]
@@ -109,7 +109,7 @@ def _samples(uv_m: Points, group: Owners, width: Vector, raster: TrueRaster) -> 
 def _overlap(uv_m: Points, width: Vector, raster: TrueRaster) -> bool:
     """Whether cells of one size (2,) share a place."""
     tree = KDTree(_unrolled(uv_m, raster) / width)
-    return bool(len(tree.query_pairs(TOUCHING, p=np.inf, output_type="ndarray")))
+    return bool(len(tree.query_pairs(APART, p=np.inf, output_type="ndarray")))
 
 
 def _nearest_cell(samples: Points, uv_m: Points, widths: Points, raster: TrueRaster) -> Owners:

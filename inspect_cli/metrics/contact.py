@@ -113,7 +113,7 @@ def gaps_of(flight: Flight, target: Target) -> int:
     touching = rows[flight.state["f_normal"][rows] >= TOUCH_N]
     times = flight.state["t_s"]
     tick_s = float(np.median(np.diff(times))) if len(times) > 1 else 0.0
-    asked = flight.during(Phase.TOUCHING)
+    asked = flight.during(Phase.CONTACT)
     last = np.flatnonzero(asked & (flight.reference["target"] == target.index))[-1:]
     ends_s = times[touching]
     if len(ends_s) and len(last) and last[0] > touching[-1]:

@@ -74,7 +74,7 @@ def slide_rows(flight: Flight, target: Target) -> Rows:
     Raises:
         NotMeasured: it never did.
     """
-    sliding = flight.during(Phase.TOUCHING, slides=True)
+    sliding = flight.during(Phase.CONTACT, slides=True)
     rows: Rows = np.flatnonzero(sliding & (flight.reference["target"] == target.index))
     if len(rows) < 2:
         raise NotMeasured(f"target {target.label} was never slid along")

@@ -171,7 +171,7 @@ class Flight:
     @cached_property
     def dwells(self) -> dict[int, Dwell]:
         """The dwell on each target, by index; those that were never pressed are left out."""
-        pressing = self.during(Phase.TOUCHING, slides=False)
+        pressing = self.during(Phase.CONTACT, slides=False)
         dwells = {}
         for target in self.plan.targets:
             rows = self._first_to_last_touch(pressing & (self.reference["target"] == target.index))

@@ -30,7 +30,7 @@ class Phase(StrEnum):
     """In free air, away from any surface."""
     NEAR = "near"
     """On the way to a surface or away from it."""
-    TOUCHING = "touching"
+    CONTACT = "contact"
     """A tool is asked to touch a surface."""
     PERCHED = "perched"
     """Held by a surface."""
@@ -38,11 +38,11 @@ class Phase(StrEnum):
     """After a failsafe; the mission goes on from there or is over."""
 
 
-IN_FLIGHT = frozenset({Phase.NEAR_GROUND, Phase.FREE, Phase.NEAR, Phase.TOUCHING, Phase.PERCHED})
+IN_FLIGHT = frozenset({Phase.NEAR_GROUND, Phase.FREE, Phase.NEAR, Phase.CONTACT, Phase.PERCHED})
 """From take-off to landing, but for what follows a failsafe."""
-OFF_GROUND = frozenset({Phase.FREE, Phase.NEAR, Phase.TOUCHING, Phase.PERCHED})
+OFF_GROUND = frozenset({Phase.FREE, Phase.NEAR, Phase.CONTACT, Phase.PERCHED})
 """The same without take-off and landing: the ground touches nothing."""
-AT_SURFACE = frozenset({Phase.NEAR, Phase.TOUCHING})
+AT_SURFACE = frozenset({Phase.NEAR, Phase.CONTACT})
 """From the approach of a surface to the retreat from it."""
 
 

@@ -24,6 +24,9 @@ PLAN_IMPORTS = (
 )
 """What a plan needs of other people's packages; a scan is read by Open3D, which needs libusb."""
 
+COMPILE_LIMIT = 1.3
+"""Half of the 14 s that the first compilation took, over the 5.4 s of the fixed kernel."""
+
 
 def measure(mission: Path) -> Iterator[Row]:
     """The first answer, a cold plan, and what compilation adds to the first flight."""
@@ -58,7 +61,9 @@ def _compilation(mission: Path) -> Row:
     yardstick_s = 0.5 * (yardstick_s + _kernel_s())
     added_s = first_s - second_s
     times = Times(added_s, yardstick_s, "CPU s", COMPILATION)
-    return Row("compile.first_run_over_kernel", added_s / yardstick_s, "1", 1.0, times=times)
+    return Row(
+        "compile.first_run_over_kernel", added_s / yardstick_s, "1", COMPILE_LIMIT, times=times
+    )
 
 
 def _kernel_s() -> float:

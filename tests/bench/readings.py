@@ -20,7 +20,8 @@ ROWS, COLUMNS, PITCH_M = 250, 400, 0.25
 REGIONS = ((30.0, 20.0, 300.0, 60.0), (70.0, 45.0, 250.0, 40.0))
 """(u, v, depth in mV, squared width in m²)."""
 ROUNDS = 3
-LIMITS = {"grid": 1.0, "list": 1.0}
+LIMITS = {"grid": 10.0, "list": 10.0}
+"""What 10 s were over the workload's 0.9 s; the ratio itself has not been measured yet."""
 
 
 def measure() -> Iterator[Row]:

@@ -6,8 +6,8 @@ with ours in the same run. Where all times of a run grow alike, the ratio stays.
 the times are those of the processor, summed over threads, so that other work on the machine does
 not count.
 
-A limit is at most 1.3 × the ratio that was measured when it was set, and lower than the former
-limit in seconds allowed on that machine.
+Limits are at most 1.3 × the ratio that was measured when they were set, but for those that say
+otherwise. They were measured on a busy machine of two cores.
 """
 
 from __future__ import annotations
