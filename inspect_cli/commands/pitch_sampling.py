@@ -48,7 +48,8 @@ from inspect_cli.schema.plan import Plan
 from inspect_cli.schema.positioning import Estimation
 from inspect_cli.schema.result import Metric
 from inspect_cli.schema.scoring import UNREAD, SurfaceScoring
-from inspect_cli.schema.tasks import ContactGrid, Coverage
+from inspect_cli.schema.tasks.contact_grid import ContactGrid
+from inspect_cli.schema.tasks.coverage import Coverage
 from inspect_cli.schema.vehicle import HalfCellModel
 from inspect_cli.sensing.half_cell import steady_readings
 from inspect_cli.simulation.randomness import component_rng

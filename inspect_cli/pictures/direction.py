@@ -8,6 +8,7 @@ from dataclasses import dataclass
 import mujoco
 import numpy as np
 
+from inspect_cli.interfaces import TOOL
 from inspect_cli.log.layout import Bytes
 from inspect_cli.log.reader import RunLog
 from inspect_cli.pictures.moments import still_moment
@@ -23,7 +24,7 @@ from inspect_cli.spatial.arrays import Mask, Points, Vector
 from inspect_cli.spatial.patches import patch_nodes
 from inspect_cli.vehicles import build_vehicle
 from inspect_cli.vehicles.actuators import rotor_radii_m
-from inspect_cli.vehicles.kinds import TOOL, Vehicle
+from inspect_cli.vehicles.kinds import Vehicle
 
 FILM_S = 10.0
 """Length of a film, s; a flight that is shorter is shown in real time."""

@@ -8,11 +8,12 @@ from typing import Literal
 import mujoco
 import numpy as np
 
+from inspect_cli.interfaces import TOOL
 from inspect_cli.log.reader import RunLog
 from inspect_cli.records import Command, Estimate, State
 from inspect_cli.spatial.arrays import Indices, Points, Vector
 from inspect_cli.vehicles.actuators import Servo, of_kind
-from inspect_cli.vehicles.kinds import TOOL, Vehicle
+from inspect_cli.vehicles.kinds import Vehicle
 
 FAR_M = 200.0
 """A flight that ends farther away than this from where it began has diverged."""

@@ -9,11 +9,12 @@ from __future__ import annotations
 import mujoco
 import numpy as np
 
+from inspect_cli.interfaces import TOOL
 from inspect_cli.scene.materials import BLADE, BOOM, FRONT, HULL, INVISIBLE, ROTOR
 from inspect_cli.scene.materials import TOOL as TOOL_COLOUR
 from inspect_cli.spatial.arrays import Matrix, Vector
 from inspect_cli.vehicles.actuators import Rotor, of_kind, rotor_radii_m
-from inspect_cli.vehicles.kinds import TOOL, Bodies, Vehicle
+from inspect_cli.vehicles.kinds import Bodies, Vehicle
 
 BOOM_M, HUB_M, RING_M, STRUT_M = 0.009, 0.014, 0.004, 0.005
 RING, RING_SIDES, RING_SEGMENTS = "rotor_ring", 6, 40

@@ -20,7 +20,7 @@ from inspect_cli.schema.explain import problems_of, shown, suggest
 from inspect_cli.schema.mission import Mission, MissionFile
 from inspect_cli.schema.nodes import Node, Step, join, merged, without
 from inspect_cli.schema.references import (
-    crowded_coverages,
+    crowded_tasks,
     dangling_surfaces,
     file_problem,
     resolved_files,
@@ -64,7 +64,7 @@ def load_mission(path: Path, platform: Path | None = None) -> Loaded:
     """
     root = campaign_root(path)
     node, problems = resolved_files(_read_extended(path, root, ()), root)
-    problems += [*dangling_surfaces(node), *crowded_coverages(node)]
+    problems += [*dangling_surfaces(node), *crowded_tasks(node)]
     file = _validated(MissionFile, node, problems)
 
     asked = _asked_platform(platform, root, problems) if platform else None

@@ -13,12 +13,13 @@ import mujoco
 import numpy as np
 
 from inspect_cli.errors import InputError, Problem
+from inspect_cli.interfaces import TOOL
 from inspect_cli.records import Lengths
 from inspect_cli.simulation.world import CONTACT_SENSOR, PROTECTED_SENSOR
 from inspect_cli.spatial.arrays import Indices
 from inspect_cli.vehicles.actuators import Actuator, Drive, Rotor, Servo, of_kind
 from inspect_cli.vehicles.contacts import Contact
-from inspect_cli.vehicles.kinds import TOOL, Vehicle
+from inspect_cli.vehicles.kinds import Vehicle
 
 
 class Addresses(NamedTuple):

@@ -13,7 +13,7 @@ from collections.abc import Sequence
 import mujoco
 import numpy as np
 
-from inspect_cli.interfaces import Posture
+from inspect_cli.interfaces import TOOL, Posture
 from inspect_cli.records import Command, Lengths, State
 from inspect_cli.simulation.addresses import addresses_of, contact_addresses
 from inspect_cli.simulation.plant_kernels import move_drives, read_state, read_wrench, set_controls
@@ -26,7 +26,7 @@ from inspect_cli.truth.proximity import Proximity
 from inspect_cli.truth.solids import Solids
 from inspect_cli.vehicles.actuators import Drive, Rotor, Servo, of_kind
 from inspect_cli.vehicles.contacts import wrench_record
-from inspect_cli.vehicles.kinds import TOOL, Vehicle
+from inspect_cli.vehicles.kinds import Vehicle
 
 
 def _ignore(warning: str) -> None:
@@ -105,7 +105,7 @@ class Plant:
         self._plates.reset()
         self.data.qpos[:3] = posture.p_WB
         self.data.qpos[3:7] = posture.q_WB
-        for (joint, servo), angle in zip(self._held, posture.arm_angle, strict=True):
+        for (joint, servo), angle in zip(self._held, posture.joint_angle, strict=True):
             self.data.qpos[joint.qposadr[0]] = angle
             if servo is not None:
                 self.data.ctrl[servo] = angle

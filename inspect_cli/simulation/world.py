@@ -25,12 +25,13 @@ import mujoco
 import numpy as np
 
 from inspect_cli.errors import InputError
+from inspect_cli.interfaces import TOOL
 from inspect_cli.schema.truth import TruePlatform
 from inspect_cli.simulation.surface_geoms import add_surfaces
 from inspect_cli.spatial.arrays import Vector
 from inspect_cli.truth.geometry import StructureTruth
 from inspect_cli.vehicles.contacts import Contact, PatchContact, PointContact
-from inspect_cli.vehicles.kinds import TOOL, Vehicle
+from inspect_cli.vehicles.kinds import Vehicle
 
 CONTACT_IMPEDANCE = 0.05
 """d of a point contact."""

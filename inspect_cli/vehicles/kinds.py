@@ -21,9 +21,6 @@ from inspect_cli.schema.vehicle import PlatformBase
 from inspect_cli.vehicles.actuators import Actuator
 from inspect_cli.vehicles.contacts import Contact
 
-TOOL = "tool"
-"""The frame that plans and readings refer to; its site's axes are T's."""
-
 
 @dataclass(frozen=True)
 class Bodies:

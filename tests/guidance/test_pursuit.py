@@ -48,7 +48,7 @@ def written(pursuit, t_s):
 
 
 def tool(vehicle, pursuit):
-    return vehicle.tool_pose(Posture(pursuit.reference.p_WB, pursuit.reference.q_WB))
+    return vehicle.frame_pose(Posture(pursuit.reference.p_WB, pursuit.reference.q_WB), "tool")
 
 
 def give_random_order(rng, pursuit, vehicle, target, t_s):
@@ -334,4 +334,4 @@ def test_an_arm_is_interpolated_and_carries_the_tip():
     assert np.allclose(pursuit.reference.p_WT, [0.55 + 0.075, 0.0, 1.02])
     pursuit.write(end + 1.0)
     assert pursuit.arrived(end + 1.0)
-    assert np.allclose(pursuit.reference.arm_angle, goal.arm_angle)
+    assert np.allclose(pursuit.reference.arm_angle, goal.joint_angle)

@@ -46,6 +46,7 @@ ESTIMATE_ROLL_ERROR_RAD = 0.005
 WRENCH_ERROR = np.array([0.3, 0.4, 0.0, 0.0, 0.03, 0.04])
 NORMAL_ERROR_DEG = 2.0
 FORCE_N = 1.8
+LAW = {"kind": "depth", "depth_m": 0.1, "profile": "contact_ndt", "expected_force_n": FORCE_N}
 READING_ERROR_V = 0.002
 RESISTANCE_FACTOR = 1.01
 
@@ -265,14 +266,13 @@ def _plan() -> Plan:
             "n_W": [-1, 0, 0],
             "q_WT": [np.sqrt(0.5), 0, np.sqrt(0.5), 0],
             "sensor": "half_cell",
-            "press_m": 0.1,
+            "cell_m": [0.05, 0.05],
+            "law": LAW,
             "dwell_s": 3.0,
             "standoff_m": 0.25,
             "standoff": _posture(point - [0.25, 0, 0]),
             "contact": _posture(point),
-            "expected_force_n": 1.8,
-            "thrust_margin_n": 5.0,
-            "tilt_margin_rad": None,
+            "margins": {"thrust": {"value": 5.0, "unit": "N"}},
             "clearance_m": 0.1,
         }
         targets.append(target)

@@ -12,7 +12,8 @@ from pydantic import TypeAdapter, ValidationError
 from inspect_cli.schema.explain import problems_of
 from inspect_cli.schema.geometry import CylinderShape, Shape, SphereShape
 from inspect_cli.schema.nodes import Node
-from inspect_cli.schema.tasks import ContactOptions, ContactPoints
+from inspect_cli.schema.tasks.base import ContactOptions
+from inspect_cli.schema.tasks.contact_points import ContactPoints
 
 Refusal = Callable[[str, str], list[str]]
 

@@ -11,10 +11,9 @@ from pitching_crawler.mujoco_model import FOOT
 from scipy.spatial.transform import Rotation
 
 from inspect_cli.autonomy.modes import Order
-from inspect_cli.interfaces import Posture
+from inspect_cli.interfaces import TOOL, Posture
 from inspect_cli.vehicles import tilt_rotor
 from inspect_cli.vehicles.actuators import Drive, Rotor
-from inspect_cli.vehicles.kinds import TOOL
 
 pytestmark = pytest.mark.xdist_group("crawler")  # one flight for all
 

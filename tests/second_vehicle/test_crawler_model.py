@@ -10,9 +10,8 @@ from pitching_crawler.abilities import Shortfall
 from pitching_crawler.mujoco_model import FOOT
 from pitching_crawler.numbers import N_ROTORS
 
-from inspect_cli.interfaces import Posture
+from inspect_cli.interfaces import TOOL, Posture
 from inspect_cli.spatial.rotations import matrix_to_quaternion, roll_pitch_yaw_matrix
-from inspect_cli.vehicles.kinds import TOOL
 
 MASS, G = 2.3, 9.81
 ANYWHERE = Posture(np.zeros(3), np.array([1.0, 0.0, 0.0, 0.0]), np.zeros(1))
@@ -31,7 +30,7 @@ def model(vehicle):
 def data_at(model, posture):
     data = mujoco.MjData(model)
     data.qpos[:3], data.qpos[3:7] = posture.p_WB, posture.q_WB
-    data.qpos[model.joint("hinge").qposadr[0]] = posture.arm_angle[0]
+    data.qpos[model.joint("hinge").qposadr[0]] = posture.joint_angle[0]
     mujoco.mj_forward(model, data)
     return data
 

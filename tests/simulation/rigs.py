@@ -8,6 +8,7 @@ import mujoco
 import numpy as np
 from worlds import hold_attitude, structure_of
 
+from inspect_cli.interfaces import TOOL
 from inspect_cli.schema.geometry import PlaneShape, Shape
 from inspect_cli.schema.truth import TruePlatform
 from inspect_cli.simulation.addresses import Addresses
@@ -16,7 +17,7 @@ from inspect_cli.simulation.plates import Plates
 from inspect_cli.simulation.world import build_world
 from inspect_cli.vehicles.actuators import Drive, add_actuators
 from inspect_cli.vehicles.contacts import PatchContact, WheelContact
-from inspect_cli.vehicles.kinds import TOOL, Bodies
+from inspect_cli.vehicles.kinds import Bodies
 
 Array = np.ndarray
 MASS, G = 2.0, 9.81

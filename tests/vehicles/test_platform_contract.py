@@ -10,7 +10,7 @@ import pytest
 from scipy.spatial.transform import Rotation
 
 from inspect_cli.errors import InputError
-from inspect_cli.interfaces import Posture
+from inspect_cli.interfaces import FramePose, Posture
 from inspect_cli.records import Pose
 from inspect_cli.schema.loading import load_platform
 from inspect_cli.schema.plan import Plan, PostureModel
@@ -73,10 +73,10 @@ def test_the_tool_is_where_the_model_has_it(vehicle: Vehicle, model: mujoco.MjMo
         posture = random_posture(vehicle, rng)
         data.qpos[:3], data.qpos[3:7] = posture.p_WB, posture.q_WB
         data.qpos[7:] = rng.uniform(-1.0, 1.0, model.nq - 7)
-        if posture.arm_angle.size:
-            data.qpos[-posture.arm_angle.size :] = posture.arm_angle
+        if posture.joint_angle.size:
+            data.qpos[-posture.joint_angle.size :] = posture.joint_angle
         mujoco.mj_kinematics(model, data)
-        p_WT, R_WT = vehicle.capabilities.tool_pose(posture)
+        p_WT, R_WT = vehicle.capabilities.frame_pose(posture, "tool")
         site = data.site("tool")
         np.testing.assert_allclose(p_WT, site.xpos, atol=1e-9)
         np.testing.assert_allclose(R_WT, site.xmat.reshape(3, 3), atol=1e-9)
@@ -90,10 +90,10 @@ def test_a_posture_for_a_tool_puts_it_there(vehicle: Vehicle) -> None:
     rng = np.random.default_rng(2)
     for _ in range(20):
         wanted = random_posture(vehicle, rng)
-        p_WT, R_WT = vehicle.capabilities.tool_pose(wanted)
-        found = vehicle.capabilities.posture_for_tool(p_WT, R_WT, wanted)
-        assert found is not None
-        p, R = vehicle.capabilities.tool_pose(found)
+        p_WT, R_WT = vehicle.capabilities.frame_pose(wanted, "tool")
+        found = vehicle.capabilities.solve({"tool": FramePose(p_WT, R_WT)}, {}, wanted)
+        assert isinstance(found, Posture)
+        p, R = vehicle.capabilities.frame_pose(found, "tool")
         np.testing.assert_allclose(p, p_WT, atol=1e-6)
         np.testing.assert_allclose(R, R_WT, atol=1e-6)
 

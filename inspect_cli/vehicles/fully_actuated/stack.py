@@ -12,7 +12,7 @@ from collections.abc import Mapping
 
 from inspect_cli.guidance.local_surface import LocalSurface
 from inspect_cli.guidance.pursuit import Pursuit
-from inspect_cli.interfaces import Capabilities, Posture
+from inspect_cli.interfaces import TOOL, Capabilities, Posture
 from inspect_cli.records import DepthImage, Imu, Pose, Record, SurfaceEstimate
 from inspect_cli.schema.plan import Plan
 from inspect_cli.schema.primitives import primitive_of
@@ -83,7 +83,7 @@ class FullyActuatedStack:
         """
         estimate, arm_angle = self.estimate, self.reference.arm_angle
         posture = Posture(estimate.p_WB, estimate.q_WB, arm_angle)
-        p_WT, R_WT = self._capabilities.tool_pose(posture)
+        p_WT, R_WT = self._capabilities.frame_pose(posture, TOOL)
         if frame == "tool":
             return p_WT, R_WT
         return self._mounting.pose(estimate.p_WB, estimate.q_WB, p_WT, R_WT)

@@ -6,7 +6,7 @@ import mujoco
 import numpy as np
 
 from inspect_cli.control.tilt_allocation import TiltAllocation
-from inspect_cli.interfaces import FlightStack
+from inspect_cli.interfaces import TOOL, FlightStack
 from inspect_cli.schema.plan import Plan
 from inspect_cli.schema.positioning import Estimation
 from inspect_cli.schema.vehicle import TiltRotorPlatform
@@ -16,7 +16,7 @@ from inspect_cli.vehicles.fully_actuated import BEHAVIOUR
 from inspect_cli.vehicles.fully_actuated.impedance_control import ImpedanceControl
 from inspect_cli.vehicles.fully_actuated.rigid_body import nominal_body
 from inspect_cli.vehicles.fully_actuated.stack import FullyActuatedStack
-from inspect_cli.vehicles.kinds import TOOL, Bodies
+from inspect_cli.vehicles.kinds import Bodies
 from inspect_cli.vehicles.tilt_rotor.capabilities import TiltRotorCapabilities
 from inspect_cli.vehicles.tilt_rotor.model import actuators_of, build_spec, group_kappa_m
 

@@ -11,12 +11,12 @@ from __future__ import annotations
 import mujoco
 import numpy as np
 
+from inspect_cli.interfaces import TOOL
 from inspect_cli.schema.vehicle import TiltArm, TiltRotorPlatform
 from inspect_cli.spatial.arrays import Matrix, Vector
 from inspect_cli.spatial.constants import GRAVITY_MPS2
 from inspect_cli.spatial.rotations import matrix_to_quaternion
 from inspect_cli.vehicles.actuators import Actuator, Rotor, Servo, add_actuators
-from inspect_cli.vehicles.kinds import TOOL
 
 SERVO_RADPS = 120.0
 """Natural frequency of the tilt servo's inner loop; well above the lag that is stated."""

@@ -8,7 +8,7 @@ from canted_octorotor.abilities import CantedOctorotorCapabilities
 from canted_octorotor.file_model import CantedOctorotorPlatform
 from canted_octorotor.fixed_allocation import FixedAllocation
 from canted_octorotor.mujoco_model import actuators_of, build_spec
-from inspect_cli.interfaces import FlightStack
+from inspect_cli.interfaces import TOOL, FlightStack
 from inspect_cli.schema.plan import Plan
 from inspect_cli.schema.positioning import Estimation
 from inspect_cli.vehicles.contacts import PointContact
@@ -16,7 +16,7 @@ from inspect_cli.vehicles.fully_actuated import BEHAVIOUR
 from inspect_cli.vehicles.fully_actuated.impedance_control import ImpedanceControl
 from inspect_cli.vehicles.fully_actuated.rigid_body import nominal_body
 from inspect_cli.vehicles.fully_actuated.stack import FullyActuatedStack
-from inspect_cli.vehicles.kinds import TOOL, Bodies
+from inspect_cli.vehicles.kinds import Bodies
 
 
 class CantedOctorotor:

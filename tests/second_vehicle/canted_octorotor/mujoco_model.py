@@ -6,9 +6,9 @@ import mujoco
 import numpy as np
 
 from canted_octorotor.file_model import CantedOctorotorPlatform, rotor_geometry, tool_in_body
+from inspect_cli.interfaces import TOOL
 from inspect_cli.spatial.rotations import matrix_to_quaternion
 from inspect_cli.vehicles.actuators import Actuator, Rotor, Servo, add_actuators
-from inspect_cli.vehicles.kinds import TOOL
 
 SERVO_RADPS = 120.0
 SERVO_ARMATURE_KGM2 = 1e-3

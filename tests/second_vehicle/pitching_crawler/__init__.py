@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import mujoco
 
-from inspect_cli.interfaces import Posture
+from inspect_cli.interfaces import TOOL, Posture
 from inspect_cli.vehicles.contacts import PatchContact, WheelContact
 from inspect_cli.vehicles.fully_actuated.rigid_body import nominal_body
-from inspect_cli.vehicles.kinds import TOOL, Bodies
+from inspect_cli.vehicles.kinds import Bodies
 from pitching_crawler.abilities import CrawlerAbilities
 from pitching_crawler.modes import BEHAVIOUR
 from pitching_crawler.mujoco_model import FOOT, JOINTS, actuators_of, build_spec

@@ -8,17 +8,15 @@ follows from the balance about its sprung hinge; nobody commands it.
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
 
 import numpy as np
 from scipy.optimize import brentq
 
 from inspect_cli.control.impedance import RigidBody
-from inspect_cli.interfaces import Posture
+from inspect_cli.interfaces import TOOL, Posture, Shortfall
 from inspect_cli.spatial.arrays import Matrix, Vector
 from inspect_cli.spatial.constants import GRAVITY_MPS2
 from inspect_cli.spatial.rotations import matrix_to_quaternion, quaternion_to_matrix
-from inspect_cli.vehicles.kinds import TOOL
 from pitching_crawler.mujoco_model import FOOT
 from pitching_crawler.numbers import N_ROTORS, CrawlerNumbers, rotor_geometry
 
@@ -26,13 +24,6 @@ LEVEL_RAD = 1e-3
 """The foot is held square to a level ceiling only."""
 LEAST_RISE = 0.05
 """A tool's axis closer to the vertical than this gives no heading."""
-
-
-@dataclass(frozen=True)
-class Shortfall:
-    """Why no posture does it."""
-
-    reason: str
 
 
 class CrawlerAbilities:
@@ -54,7 +45,7 @@ class CrawlerAbilities:
         R_WB = quaternion_to_matrix(posture.q_WB)
         if frame == FOOT:
             return posture.p_WB + R_WB @ [0.0, 0.0, self._numbers.foot_height_m], R_WB
-        p_BT, R_BT = self._tool(posture.arm_angle[0])
+        p_BT, R_BT = self._tool(posture.joint_angle[0])
         return posture.p_WB + R_WB @ p_BT, R_WB @ R_BT
 
     def solve(
@@ -82,13 +73,13 @@ class CrawlerAbilities:
         angle = self._hinge_angle(R_WB, loads.get(TOOL, np.zeros(6)))
         at_origin = Posture(np.zeros(3), matrix_to_quaternion(R_WB), np.array([angle]))
         offset, _ = self.frame_pose(at_origin, frame)
-        return Posture(p - offset, at_origin.q_WB, at_origin.arm_angle)
+        return Posture(p - offset, at_origin.q_WB, at_origin.joint_angle)
 
     def thrust_margin_n(self, posture: Posture, loads: Mapping[str, Vector]) -> float:
         """Thrust left in the busiest rotor."""
         R_WB = quaternion_to_matrix(posture.q_WB)
         up_B = R_WB.T @ [0.0, 0.0, self._body.mass_kg * GRAVITY_MPS2]
-        needed = np.concatenate([up_B, np.cross(self.com_B(posture.arm_angle[0]), up_B)])
+        needed = np.concatenate([up_B, np.cross(self.com_B(posture.joint_angle[0]), up_B)])
         for frame, load in loads.items():
             arm_B = R_WB.T @ (self.frame_pose(posture, frame)[0] - posture.p_WB)
             force_B, torque_B = R_WB.T @ load[:3], R_WB.T @ load[3:]

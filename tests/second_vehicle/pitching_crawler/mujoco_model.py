@@ -5,9 +5,9 @@ from __future__ import annotations
 import mujoco
 import numpy as np
 
+from inspect_cli.interfaces import TOOL
 from inspect_cli.spatial.constants import GRAVITY_MPS2
 from inspect_cli.vehicles.actuators import Actuator, Drive, Rotor, add_actuators
-from inspect_cli.vehicles.kinds import TOOL
 from pitching_crawler.numbers import CrawlerNumbers, rotor_geometry
 
 FOOT = "foot"

@@ -16,7 +16,7 @@ import numpy as np
 
 from inspect_cli.control.impedance import RigidBody
 from inspect_cli.estimation.error_state import ErrorStateFilter
-from inspect_cli.interfaces import DepthImage, Posture
+from inspect_cli.interfaces import TOOL, DepthImage, Posture
 from inspect_cli.records import Command, Estimate, Imu, Pose, Record, Reference
 from inspect_cli.spatial.arrays import Matrix, Vector
 from inspect_cli.spatial.constants import GRAVITY_MPS2
@@ -25,7 +25,6 @@ from inspect_cli.spatial.rotations import (
     quaternion_to_matrix,
     roll_pitch_yaw_matrix,
 )
-from inspect_cli.vehicles.kinds import TOOL
 from pitching_crawler.abilities import CrawlerAbilities, Shortfall, axes_along
 from pitching_crawler.foot_sensor import Encoders
 from pitching_crawler.motions import Motion, SetPoint, stay

@@ -1,4 +1,4 @@
-"""Flights from a start through some contacts and back: what they cost, and as plans."""
+"""Sorties from a start through some contacts and back: their ways, energies and plans."""
 
 from __future__ import annotations
 
@@ -10,13 +10,14 @@ import numpy as np
 
 from inspect_cli.interfaces import Capabilities, Posture
 from inspect_cli.planning.clearance import Scene
-from inspect_cli.planning.errands import Situation
 from inspect_cli.planning.feasibility import Limits, Reason, cable_reasons, clamp_of
 from inspect_cli.planning.legs import Itinerary, leg_of, plan_of
 from inspect_cli.planning.path import Stop, Way
 from inspect_cli.planning.planner import check_start, start_postures
+from inspect_cli.planning.segments import Stretch
 from inspect_cli.planning.sorties import Costs
-from inspect_cli.planning.visits import ContactVisit, Stretch
+from inspect_cli.planning.tasks.situation import Situation
+from inspect_cli.planning.tasks.touch import ContactSegment
 from inspect_cli.schema.mission import Mission
 from inspect_cli.schema.plan import Plan, PlannedSurface
 from inspect_cli.schema.start import Start
@@ -59,7 +60,7 @@ class Base:
         return Stop(self.hover, np.zeros(3))
 
 
-class Trips:
+class SortieCosts:
     """Ways, energies and plans of flights over one mission's structure."""
 
     def __init__(
@@ -76,19 +77,19 @@ class Trips:
         self._out: dict[tuple[int, str], Way] = {}
         self._between: dict[tuple[str, str], Way] = {}
 
-    def costs(self, visits: Sequence[ContactVisit]) -> tuple[Costs, dict[int, list[Reason]]]:
-        """The energies of the visits without those between them, and why some have no way.
+    def costs(self, segments: Sequence[ContactSegment]) -> tuple[Costs, dict[int, list[Reason]]]:
+        """The energies of the segments without those between them, and why some have no way.
 
         What a base's cable does not span, or no clear way leads to, is infinite.
         """
-        shape = (len(self._bases), len(visits))
+        shape = (len(self._bases), len(segments))
         out, home = np.full(shape, np.inf), np.full(shape, np.inf)
         reasons: dict[int, list[Reason]] = {}
         for b, base in enumerate(self._bases):
             rise = self._energy_j(base.standing, [Stretch("takeoff", None, (base.hover,))])
             sink = self._energy_j(base.hover, [Stretch("land", None, (base.standing,))])
-            for k, visit in enumerate(visits):
-                found = self._way_out(b, visit)
+            for k, segment in enumerate(segments):
+                found = self._way_out(b, segment)
                 if isinstance(found, list):
                     reasons.setdefault(k, found)
                     continue
@@ -96,15 +97,15 @@ class Trips:
                 home_way = _back(base.hover, found)
                 back = [Stretch("transit", None, home_way)] if home_way else []
                 out[b, k] = rise + self._energy_j(base.hover, there)
-                home[b, k] = sink + self._energy_j(visit.stop.posture, back)
-        work = [self._energy_j(visit.stop.posture, visit.stretches(0)) for visit in visits]
+                home[b, k] = sink + self._energy_j(segment.stop.posture, back)
+        work = [self._energy_j(segment.stop.posture, segment.stretches(0)) for segment in segments]
         blocked = {k: found for k, found in reasons.items() if not np.isfinite(out[:, k]).any()}
         return Costs(np.array(work), np.empty(0), out, home), blocked
 
-    def between_j(self, visits: Sequence[ContactVisit]) -> Vector:
-        """(n − 1,) energies, J, of the ways from each visit to the next; infinite without one."""
-        costs_j = np.full(max(len(visits) - 1, 0), np.inf)
-        for k, (a, b) in enumerate(pairwise(visits)):
+    def between_j(self, segments: Sequence[ContactSegment]) -> Vector:
+        """(n − 1,) energies, J, of the ways from each segment to the next; infinite without one."""
+        costs_j = np.full(max(len(segments) - 1, 0), np.inf)
+        for k, (a, b) in enumerate(pairwise(segments)):
             way = self._bases[0].situation.way(a.stop, b.stop)
             if isinstance(way, list):
                 continue
@@ -113,26 +114,26 @@ class Trips:
             costs_j[k] = self._energy_j(a.stop.posture, transit)
         return costs_j
 
-    def plan(self, base: int, visits: Sequence[ContactVisit]) -> Plan:
-        """The flight from a base through the visits and back, on ways that were found before."""
+    def plan(self, base: int, segments: Sequence[ContactSegment]) -> Plan:
+        """The flight from a base through the segments and back, on ways that were found before."""
         at = self._bases[base]
-        joined = [replace(visits[0], way=self._out[base, visits[0].label])]
-        for a, b in pairwise(visits):
+        joined = [replace(segments[0], way=self._out[base, segments[0].label])]
+        for a, b in pairwise(segments):
             joined.append(replace(b, way=self._between[a.label, b.label]))
-        home = _back(at.hover, self._out[base, visits[-1].label])
+        home = _back(at.hover, self._out[base, segments[-1].label])
         itinerary = Itinerary(at.standing, at.hover, tuple(joined), home)
         mission = self._mission.model_copy(update={"start": at.start})
         return plan_of(mission, self._platform_name, self._capabilities, self._surfaces, itinerary)
 
-    def _way_out(self, b: int, visit: ContactVisit) -> Way | list[Reason]:
+    def _way_out(self, b: int, segment: ContactSegment) -> Way | list[Reason]:
         """From hovering over a base to a standoff; the way home is the same, backwards."""
         base = self._bases[b]
-        short = cable_reasons(visit.point, base.situation.limits)
+        short = cable_reasons(segment.point, base.situation.limits)
         if short:
             return short
-        way = base.situation.way(base.stop, visit.stop)
+        way = base.situation.way(base.stop, segment.stop)
         if not isinstance(way, list):
-            self._out[b, visit.label] = way
+            self._out[b, segment.label] = way
         return way
 
     def _energy_j(self, before: Posture, stretches: Iterable[Stretch]) -> float:

@@ -1,6 +1,4 @@
-"""How long a vehicle rests between the stretches of a flight; plans count on the same times."""
-
-from __future__ import annotations
+"""Times that every flight spends waiting: the executive waits them, the planner counts them."""
 
 PAUSE_S = 0.2
 """At rest at the end of each stretch before the next begins."""

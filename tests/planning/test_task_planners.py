@@ -54,7 +54,7 @@ def test_room_about_a_pose():
         assert target.clearance_m == pytest.approx(2.0 - np.max(spheres[:, 0] + spheres[:, 3]))
         (alone,) = planned(task, surfaces={}).targets
         assert alone.clearance_m is None
-        assert alone.thrust_margin_n == target.thrust_margin_n > 0.0
+        assert alone.margins["thrust"].value == target.margins["thrust"].value > 0.0
 
 
 def test_all_kinds_in_one_mission():
