@@ -1,4 +1,4 @@
-"""What the rooms ask of each other: a vehicle's Capabilities, its FlightStack.
+"""What the rooms ask of each other: a vehicle's Capabilities, its FlightStack, a Judge of readings.
 
 Planning, guidance and autonomy know a vehicle through these alone, so that a rigid tilt-rotor,
 an articulated arm and a perching manipulator are planned and flown by the same code.
@@ -6,13 +6,22 @@ an articulated arm and a perching manipulator are planned and flown by the same 
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, field
-from typing import Literal, Protocol
+from typing import Any, Literal, Protocol
 
 import numpy as np
 
-from inspect_cli.records import Command, DepthImage, Estimate, Lengths, Pose, Record, Reference
+from inspect_cli.records import (
+    Command,
+    DepthImage,
+    Estimate,
+    Lengths,
+    PointReading,
+    Pose,
+    Record,
+    Reference,
+)
 from inspect_cli.spatial.arrays import Matrix, Points, Vector
 
 TOOL = "tool"
@@ -288,3 +297,35 @@ class FlightStack(Protocol):
     def believed(self, frame: str) -> tuple[Vector, Matrix]:
         """(p, R) in W of a frame of the vehicle by the estimate: ``tool``, or a camera's name."""
         ...
+
+
+class Judge(Protocol):
+    """Decides whether an instrument's samples at a point make a reading."""
+
+    def begin(self, target: int, t_s: float) -> None:
+        """A new point."""
+        ...
+
+    def feed(self, sample: Any, p_WT: Vector) -> None:
+        """Another of the instrument's samples, with the believed position of the tip."""
+        ...
+
+    def done(self, t_s: float) -> bool:
+        """Whether the point is decided."""
+        ...
+
+    def finish(self, t_s: float) -> PointReading:
+        """The verdict."""
+        ...
+
+
+@dataclass(frozen=True)
+class Judging:
+    """How the samples of an instrument become readings."""
+
+    sample: type[Record]
+    """What the instrument sends."""
+    reading: type[PointReading]
+    """What is logged of each point."""
+    judge: Callable[[float], Judge]
+    """Makes the judge of one point, given its dwell, s."""

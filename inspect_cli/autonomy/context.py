@@ -5,20 +5,19 @@ A vehicle subclasses ``Context`` with what its own modes need: its guidance, its
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any, Literal
 
 import numpy as np
 
 from inspect_cli.autonomy.modes import Mode, Order
-from inspect_cli.autonomy.protocols import Judge
-from inspect_cli.interfaces import FlightStack
-from inspect_cli.records import InvalidReason, Probe, Reading, Record
+from inspect_cli.interfaces import FlightStack, Judge, Judging
+from inspect_cli.records import InvalidReason, PointReading, Record
 from inspect_cli.schema.plan import Plan, Target
 
-Judges = Mapping[str, Callable[[Target], Judge]]
-"""By the instrument of a target: makes the judge of its samples there."""
+Judges = Mapping[str, Judging]
+"""By the instrument of a target: what judges its samples there."""
 
 
 @dataclass(frozen=True)
@@ -46,12 +45,13 @@ class Context:
         """When the mode was entered."""
         self.armed = False
         """Whether the rotors shall turn."""
-        self.readings: list[Reading] = []
+        self.readings: list[PointReading] = []
         """Verdicts that nobody has logged yet."""
         self.events: list[Event] = []
         """Events that nobody has logged yet."""
         self._judges = judges
         self._judge: Judge | None = None
+        self._sample: type[Record] = Record
         self._judging = False
         self._judged: set[int] = set()
 
@@ -79,7 +79,7 @@ class Context:
 
     def hear(self, record: Record) -> None:
         """Take what the stack made of a sensor's sample, or an instrument's sample."""
-        if isinstance(record, Probe) and self._judge is not None and self._judging:
+        if self._judge is not None and self._judging and isinstance(record, self._sample):
             p_WT, _ = self.stack.believed("tool")
             self._judge.feed(record, p_WT)
 
@@ -89,8 +89,10 @@ class Context:
 
     def prepare_reading(self, target: Target) -> None:
         """Have a judge ready if an instrument is read at the target."""
-        self._judge = self._judges[target.sensor](target) if target.sensor else None
-        self._judging = False
+        self._judge, self._judging = None, False
+        if target.sensor is not None:
+            judging = self._judges[target.sensor]
+            self._judge, self._sample = judging.judge(target.dwell_s), judging.sample
 
     def begin_reading(self) -> None:
         """Let the samples count from now on: the set-point is where it shall be."""
@@ -124,23 +126,22 @@ class Context:
         for target in self.plan.targets:
             if target.sensor is not None and target.index not in self._judged:
                 self._judged.add(target.index)
-                self.readings.append(_no_reading(self.t_s, target))
+                kind = self._judges[target.sensor].reading
+                self.readings.append(_no_reading(kind, self.t_s, target))
 
 
-def check_place(reading: Reading, target: Target) -> None:
+def check_place(reading: PointReading, target: Target) -> None:
     """Refuse a reading that was taken too far from its point, along the surface."""
     way = reading.p_WT - target.p_WC
     along = way - np.array(target.n_W) * float(way @ np.array(target.n_W))
     if reading.valid and not np.linalg.norm(along) <= target.off_target_m:
-        reading.valid, reading.reason = 0.0, float(InvalidReason.OFF_TARGET)
-        reading.potential = reading.resistance = float("nan")
+        reading.void(InvalidReason.OFF_TARGET)
 
 
-def _no_reading(t_s: float, target: Target) -> Reading:
-    reading = Reading.create()
+def _no_reading(kind: type[PointReading], t_s: float, target: Target) -> PointReading:
+    reading = kind.create()
     reading.t_s = t_s
     reading.target = float(target.index)
-    reading.potential = reading.resistance = float("nan")
     reading.p_WT[:] = target.p_WC
-    reading.reason = float(InvalidReason.ABORTED)
+    reading.void(InvalidReason.ABORTED)
     return reading

@@ -1,4 +1,4 @@
-"""What a vehicle's modes work with: a Guidance that moves the reference, a Judge of readings."""
+"""What a vehicle's modes work with: a Guidance that moves the reference."""
 
 from __future__ import annotations
 
@@ -6,9 +6,8 @@ from collections.abc import Sequence
 from typing import Protocol
 
 from inspect_cli.interfaces import FlightStack, Posture
-from inspect_cli.records import Probe, Reading, SurfaceEstimate
+from inspect_cli.records import SurfaceEstimate
 from inspect_cli.schema.plan import Target
-from inspect_cli.spatial.arrays import Vector
 
 
 class Guidance(Protocol):
@@ -56,24 +55,4 @@ class GuidedStack(FlightStack, Protocol):
     @property
     def guidance(self) -> Guidance:
         """What moves its reference."""
-        ...
-
-
-class Judge(Protocol):
-    """Decides whether the probe's samples at a point make a reading; see ``sensing.reading``."""
-
-    def begin(self, target: int, t_s: float) -> None:
-        """A new point."""
-        ...
-
-    def feed(self, probe: Probe, p_WT: Vector) -> None:
-        """Another sample, with the believed position of the tip."""
-        ...
-
-    def done(self, t_s: float) -> bool:
-        """Whether the point is decided."""
-        ...
-
-    def finish(self, t_s: float) -> Reading:
-        """The verdict."""
         ...

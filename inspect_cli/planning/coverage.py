@@ -8,7 +8,7 @@ reasons and does not refuse the mission.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -62,7 +62,7 @@ class Surveyor:
         capabilities: Capabilities,
         surfaces: tuple[PlannedSurface, ...],
         cable_m: float,
-        min_force_n: float,
+        least_force_n: Mapping[str, float],
         battery_wh: float,
     ) -> None:
         task = mission.tasks[0]
@@ -74,7 +74,7 @@ class Surveyor:
         self.prim = primitive_of(shapes[self.coverage.on])
         self._mission, self._capabilities = mission, capabilities
         self._scene = Scene.of(surfaces)
-        self._bases = self._made_bases(cable_m, min_force_n)
+        self._bases = self._made_bases(cable_m, least_force_n)
         self._sortie_costs = SortieCosts(
             mission, platform_name, capabilities, surfaces, self._bases
         )
@@ -140,11 +140,11 @@ class Surveyor:
                 hint="give a larger pitch_m",
             )
 
-    def _made_bases(self, cable_m: float, min_force_n: float) -> list[Base]:
+    def _made_bases(self, cable_m: float, least_force_n: Mapping[str, float]) -> list[Base]:
         starts = self.coverage.starts or (self._mission.start,)
         clearance_m = self._mission.flight.clearance_m
         return [
-            Base.of(start, self._capabilities, self._scene, clearance_m, cable_m, min_force_n)
+            Base.of(start, self._capabilities, self._scene, clearance_m, cable_m, least_force_n)
             for start in starts
         ]
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import NamedTuple
 
@@ -24,7 +25,7 @@ class Reason(NamedTuple):
 
 @dataclass(frozen=True)
 class Limits:
-    """What a mission and its instrument ask of every contact.
+    """What a mission and the instruments on board ask of every contact.
 
     ``clamp_W`` (3,) m is where the cable is fastened.
     """
@@ -32,7 +33,8 @@ class Limits:
     clearance_m: float
     cable_m: float
     clamp_W: Vector
-    min_force_n: float
+    least_force_n: Mapping[str, float]
+    """Force below which an instrument does not read, by its kind; one not named needs none."""
 
 
 @dataclass(frozen=True)
@@ -117,10 +119,13 @@ def gap_reasons(gap: Gap, clearance_m: float) -> list[Reason]:
 
 
 def _force_reasons(force_n: float, point: ContactPoint, limits: Limits) -> list[Reason]:
-    if point.sensor is None or force_n >= limits.min_force_n:
+    if point.sensor is None:
+        return []
+    least_n = limits.least_force_n.get(point.sensor, 0.0)
+    if force_n >= least_n:
         return []
     what = (
         f"press_m {point.options.press_m:.3f} gives {force_n:.2f} N, "
-        f"the instrument needs {limits.min_force_n:.2f} N"
+        f"the instrument needs {least_n:.2f} N"
     )
     return [Reason(what, "press deeper")]

@@ -30,6 +30,7 @@ from inspect_cli.spatial.rotations import quaternion_exp
 from inspect_cli.structure.drawings import Stroke
 
 NO_DRAWINGS: Mapping[int, Sequence[Stroke]] = {}
+NO_FORCES: Mapping[str, float] = {}
 
 
 def make_plan(
@@ -38,21 +39,21 @@ def make_plan(
     capabilities: Capabilities,
     surfaces: tuple[PlannedSurface, ...],
     cable_m: float,
-    min_force_n: float = 0.0,
+    least_force_n: Mapping[str, float] = NO_FORCES,
     battery_wh: float = np.inf,
     drawings: Mapping[int, Sequence[Stroke]] = NO_DRAWINGS,
 ) -> Plan:
     """Plan the whole flight of a mission on the believed surfaces.
 
-    ``cable_m`` is the length of the instrument's cable from the start, ``min_force_n`` the
-    force below which the instrument does not read, ``battery_wh`` the usable energy,
+    ``cable_m`` is the length of the shortest cable from the start, ``least_force_n`` the force
+    below which an instrument does not read, ``battery_wh`` the usable energy,
     ``drawings`` the strokes of the tasks that trace, by the task's place. Raises
     InfeasibleError with one problem per point that cannot be touched: its label and the
     physical reasons.
     """
     scene = Scene.of(surfaces)
     standing, hover = start_postures(mission.start, capabilities)
-    limits = Limits(mission.flight.clearance_m, cable_m, clamp_of(mission.start), min_force_n)
+    limits = Limits(mission.flight.clearance_m, cable_m, clamp_of(mission.start), least_force_n)
     situation = Situation(capabilities, scene, limits)
     check_start(situation, standing, hover)
 

@@ -9,7 +9,7 @@ import numpy as np
 
 from inspect_cli.schema.base import Triple
 from inspect_cli.schema.tasks import Task
-from inspect_cli.schema.tasks.base import Instrument, Pressing
+from inspect_cli.schema.tasks.base import Pressing
 from inspect_cli.schema.tasks.contact_grid import ContactGrid
 from inspect_cli.schema.tasks.contact_points import ContactPoints
 from inspect_cli.spatial.arrays import Structured, Vector
@@ -34,7 +34,7 @@ class ContactPoint:
     n_W: Vector
     options: Pressing
     impedance: str
-    sensor: Instrument | None = None
+    sensor: str | None = None
     fault: str = ""
     cell_m: tuple[float, float] | None = None
     """Widths along u and v of what it stands for (``point_cells``)."""
@@ -83,7 +83,7 @@ def point_on(
     surface: str,
     options: Pressing,
     impedance: str,
-    sensor: Instrument | None = None,
+    sensor: str | None = None,
     fault: str = "",
     cell_m: tuple[float, float] | None = None,
 ) -> ContactPoint:

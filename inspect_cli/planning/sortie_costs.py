@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from itertools import pairwise
 
@@ -41,7 +41,7 @@ class Base:
         scene: Scene,
         clearance_m: float,
         cable_m: float,
-        min_force_n: float,
+        least_force_n: Mapping[str, float],
     ) -> Base:
         """The base at a start.
 
@@ -49,7 +49,7 @@ class Base:
             InfeasibleError: the vehicle cannot rise from there.
         """
         standing, hover = start_postures(start, capabilities)
-        limits = Limits(clearance_m, cable_m, clamp_of(start), min_force_n)
+        limits = Limits(clearance_m, cable_m, clamp_of(start), least_force_n)
         base = cls(start, standing, hover, Situation(capabilities, scene, limits))
         check_start(base.situation, standing, hover)
         return base

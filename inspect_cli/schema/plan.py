@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from typing import Annotated, Literal, Self
+from typing import TYPE_CHECKING, Annotated, Literal, Self
 
 import numpy as np
 from pydantic import AfterValidator, Field, model_validator
@@ -11,6 +11,8 @@ from pydantic import AfterValidator, Field, model_validator
 from inspect_cli.interfaces import ContactLaw, Posture
 from inspect_cli.schema.base import Name, NonNegative, Positive, Strict, Triple
 from inspect_cli.schema.geometry import Shape
+from inspect_cli.schema.registry import choice_of
+from inspect_cli.schema.vehicle.sensors import INSTRUMENTS
 
 
 def _unit(value: tuple[float, float, float, float]) -> tuple[float, float, float, float]:
@@ -91,6 +93,12 @@ class Following(Strict):
     speed_mps: Positive
 
 
+if TYPE_CHECKING:
+    Instrument = str
+else:
+    Instrument = choice_of(INSTRUMENTS)
+
+
 class Target(Strict):
     """Something that the vehicle goes to.
 
@@ -114,7 +122,8 @@ class Target(Strict):
     n_W: Triple
     """Outward normal of the fitted surface there."""
     q_WT: Quaternion
-    sensor: Literal["half_cell"] | None
+    sensor: Instrument | None
+    """The instrument that is read there, by its kind; None where none is."""
     law: Annotated[ContactLaw, Field(discriminator="kind")] | None = None
     """How the tool is pressed on the surface; None where nothing is touched."""
     dwell_s: NonNegative
@@ -178,6 +187,11 @@ class Plan(Strict):
     cable_m: float
     """Longest straight distance from the start to a target that the cable has to span."""
     warnings: tuple[str, ...] = ()
+
+    @property
+    def instruments(self) -> tuple[str, ...]:
+        """The instruments that are read, each once, in the order of the targets."""
+        return tuple(dict.fromkeys(t.sensor for t in self.targets if t.sensor is not None))
 
     @model_validator(mode="after")
     def _legs_lead_to_targets(self) -> Self:

@@ -8,12 +8,21 @@ rows (``inspect_cli.plugins``), so that the union cannot be written out.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from types import NoneType, UnionType
-from typing import Annotated, Any, Union, get_args, get_origin
+from typing import Annotated, Any, Literal, Union, get_args, get_origin
 
 from pydantic import BaseModel, GetCoreSchemaHandler
 from pydantic_core import CoreSchema, core_schema
+
+
+def choice_of(names: Iterable[str]) -> Any:
+    """The type of a text that is one of these names.
+
+    A Literal whose names are the keys of a registry, and so cannot be written out.
+    """
+    literal: Any = Literal
+    return literal[tuple(names)]
 
 
 class OneOf:

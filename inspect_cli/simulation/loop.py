@@ -25,12 +25,11 @@ from inspect_cli.records import (
     SurfaceEstimate,
     WallForce,
 )
-from inspect_cli.schema.plan import Plan, Target
+from inspect_cli.schema.plan import Plan
 from inspect_cli.schema.positioning import Estimation
 from inspect_cli.schema.result import Status
 from inspect_cli.schema.truth import TruthModel
-from inspect_cli.schema.vehicle import HalfCellModel
-from inspect_cli.sensing.reading import ReadingJudge
+from inspect_cli.sensing.judges import judges_of
 from inspect_cli.simulation.clock import Clock, Tick
 from inspect_cli.simulation.mounts import Listener, Mount, mounts_of
 from inspect_cli.simulation.plant import Plant
@@ -93,16 +92,13 @@ class Flight:
         self.contact = ContactTruth(structure)
         state = self.plant.state
         self.truth = Truth(state, partial(self.contact.update, state), self.plant.wall_wrench)
-        reads_with = {target.sensor for target in plan.targets if target.sensor is not None}
-        self.mounts = mounts_of(platform, structure, truth, seed, estimation, reads_with)
+        judges = judges_of(platform, plan.instruments)
+        self.mounts = mounts_of(platform, structure, truth, seed, estimation, judges)
         self.stack = vehicle.flight_stack(plan, estimation)
-
-        def judge(target: Target) -> ReadingJudge:
-            return ReadingJudge(platform.sensor(HalfCellModel), target.dwell_s)
 
         limit_s = 60.0 + 2.0 * plan.duration_s
         behaviour = vehicle.behaviour
-        context = behaviour.context(plan, self.stack, {"half_cell": judge})
+        context = behaviour.context(plan, self.stack, judges)
         self.executive = Executive(behaviour, context, limit_s)
         self.recorder = Recorder(
             log,
@@ -116,6 +112,8 @@ class Flight:
             if isinstance(mount.sensor.measurement, Record):
                 log.declare(type(mount.sensor.measurement))
             mount.listeners = self._listeners(mount)
+        for judging in judges.values():
+            log.declare(judging.reading)
         due = {mount.name: mount.rate_hz for mount in self.mounts} | {
             "mission": rates.mission_hz,
             "control": rates.control_hz,

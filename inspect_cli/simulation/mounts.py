@@ -8,7 +8,12 @@ from typing import TypeAlias
 from inspect_cli.records import Measurement
 from inspect_cli.schema.positioning import Estimation
 from inspect_cli.schema.truth import WALL, TruthModel
-from inspect_cli.schema.vehicle import PlatformBase, PoseSourceModel, SensorModel
+from inspect_cli.schema.vehicle import (
+    InstrumentModel,
+    PlatformBase,
+    PoseSourceModel,
+    SensorModel,
+)
 from inspect_cli.schema.vehicle.sensors import SENSORS
 from inspect_cli.sensing.instrument import SimulatedSensor, Surroundings
 from inspect_cli.sensing.sensors import simulated
@@ -54,7 +59,7 @@ def mounts_of(
 
     The order is that of the kinds in ``SENSORS``, then a force sensor in a wall. Each sensor has a
     generator of its own, drawn from ``seed`` by the sensor's name. Of the pose sources only that
-    of ``estimation`` is mounted, and of the kinds that read points only those in ``reads_with``.
+    of ``estimation`` is mounted, and of the instruments only those in ``reads_with``.
     """
     kinds = list(SENSORS)
     chosen = [
@@ -76,7 +81,7 @@ def mounts_of(
 def _is_needed(model: SensorModel, estimation: Estimation, reads_with: Collection[str]) -> bool:
     if isinstance(model, PoseSourceModel):
         return model.estimation == estimation
-    return not model.on_demand or model.kind in reads_with
+    return not isinstance(model, InstrumentModel) or model.kind in reads_with
 
 
 def _wall_sensor(structure: StructureTruth, seed: int) -> Iterator[Mount]:

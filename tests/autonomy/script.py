@@ -9,7 +9,7 @@ import numpy as np
 
 from inspect_cli.autonomy.executive import Executive
 from inspect_cli.autonomy.modes import Behaviour
-from inspect_cli.interfaces import DepthLaw, Posture
+from inspect_cli.interfaces import DepthLaw, Judging, Posture
 from inspect_cli.records import (
     Command,
     DepthImage,
@@ -210,12 +210,14 @@ class Script:
         self._seen = SurfaceEstimate.create()
         self.t_s = 0.0
         self.context = behaviour.context(
-            plan or two_point_plan(), self.stack, {"half_cell": self._judge}
+            plan or two_point_plan(),
+            self.stack,
+            {"half_cell": Judging(Probe, Reading, self._judge)},
         )
         self.executive = Executive(behaviour, self.context, TIME_LIMIT_S)
         self.modes: list[tuple[str, int]] = []
 
-    def _judge(self, target: Target) -> FakeJudge:
+    def _judge(self, dwell_s: float) -> FakeJudge:
         self.judges.append(FakeJudge())
         return self.judges[-1]
 

@@ -57,7 +57,7 @@ def plan(vehicle, *tasks, surfaces=None, cable_m=20.0, min_force_n=0.0, **more):
     surfaces = surfaces or {"wall": wall()}
     believed = tuple(PlannedSurface(name=n, shape=s, source="given") for n, s in surfaces.items())
     asked = mission(*tasks, surfaces=surfaces, **more)
-    return make_plan(asked, "fake", vehicle, believed, cable_m, min_force_n)
+    return make_plan(asked, "fake", vehicle, believed, cable_m, {"half_cell": min_force_n})
 
 
 def array(*models):

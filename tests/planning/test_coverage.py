@@ -24,7 +24,9 @@ def surveyor(*, surfaces=None, battery_wh=500.0, cable_m=20.0, vehicle=None, **c
     believed = tuple(PlannedSurface(name=n, shape=s, source="given") for n, s in surfaces.items())
     task = {"coverage": {"on": "wall", "pitch_m": 0.25, **coverage}}
     asked = mission(task, surfaces=surfaces)
-    return Surveyor(asked, "fake", vehicle or RigidVehicle(), believed, cable_m, 0.0, battery_wh)
+    return Surveyor(
+        asked, "fake", vehicle or RigidVehicle(), believed, cable_m, {"half_cell": 0.0}, battery_wh
+    )
 
 
 def labels(survey):

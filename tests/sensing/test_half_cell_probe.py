@@ -13,7 +13,7 @@ from inspect_cli.sensing.half_cell import (
     HalfCellProbe,
     steady_readings,
 )
-from inspect_cli.sensing.reading import ReadingJudge
+from inspect_cli.sensing.half_cell_judge import ReadingJudge
 from inspect_cli.truth.snapshot import Truth
 
 QUIET = HalfCellModel(

@@ -10,7 +10,7 @@ import pytest
 from inspect_cli.records import InvalidReason, Probe, Reading, State, TrueContact
 from inspect_cli.schema.vehicle import HalfCellModel
 from inspect_cli.sensing.half_cell import OVER_RANGE_OHM, HalfCellProbe
-from inspect_cli.sensing.reading import FORCE_MEAN_S, ReadingJudge
+from inspect_cli.sensing.half_cell_judge import FORCE_MEAN_S, ReadingJudge
 from inspect_cli.truth.snapshot import Truth
 
 MODEL = HalfCellModel(

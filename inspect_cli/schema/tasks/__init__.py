@@ -10,12 +10,13 @@ from another package is an entry point of the group ``inspect_cli.tasks``.
 from __future__ import annotations
 
 from collections.abc import Collection
-from typing import TYPE_CHECKING, Any, Literal
+from typing import TYPE_CHECKING, Any
 
 from pydantic import Field, create_model, model_validator
 
 from inspect_cli.plugins import registered
 from inspect_cli.schema.base import Name, Strict
+from inspect_cli.schema.registry import choice_of
 from inspect_cli.schema.tasks import (
     contact_grid,
     contact_points,
@@ -24,7 +25,8 @@ from inspect_cli.schema.tasks import (
     servo,
     trace,
 )
-from inspect_cli.schema.tasks.base import Instrument, TaskKind, Work
+from inspect_cli.schema.tasks.base import TaskKind, Work
+from inspect_cli.schema.vehicle.sensors import INSTRUMENTS
 
 TASK_KINDS: dict[str, TaskKind] = registered(
     "inspect_cli.tasks",
@@ -40,6 +42,10 @@ TASK_KINDS: dict[str, TaskKind] = registered(
 """Every kind of task by its key in the mission, in the order in which messages list them."""
 
 
+NO_SENSOR = "none"
+"""What a task states that touches and does not read."""
+
+
 def tasks_with(modes: Collection[str]) -> frozenset[str]:
     """The kinds of tasks that a vehicle with these modes can do."""
     return frozenset(name for name, kind in TASK_KINDS.items() if kind.modes <= set(modes))
@@ -49,7 +55,7 @@ class TaskBase(Strict):
     """Something to do, and the instrument and the impedance profile to do it with."""
 
     if TYPE_CHECKING:  # pydantic makes these fields of the registry, below
-        sensor: Literal["half_cell", "none"] | None
+        sensor: str | None
         impedance: Name | None
 
     @model_validator(mode="after")
@@ -57,8 +63,9 @@ class TaskBase(Strict):
         given = [name for name in TASK_KINDS if getattr(self, name) is not None]
         if len(given) != 1:
             raise ValueError(f"give exactly one of {', '.join(TASK_KINDS)}")
-        if self.sensor == "half_cell" and not TASK_KINDS[given[0]].reads:
-            raise ValueError(f"the half-cell reads at contacts; a {given[0]} has none to read at")
+        if self.sensor not in (None, NO_SENSOR) and not TASK_KINDS[given[0]].reads:
+            reader = f"the {self.sensor}".replace("_", "-")
+            raise ValueError(f"{reader} reads at contacts; a {given[0]} has none to read at")
         self.work.check_instrument(self.instrument)
         return self
 
@@ -80,19 +87,20 @@ class TaskBase(Strict):
         return None if key is None else getattr(self.work, key)
 
     @property
-    def instrument(self) -> Instrument | None:
+    def instrument(self) -> str | None:
         """What reads at its points."""
         if self.sensor is None:
-            return "half_cell" if TASK_KINDS[self.kind].reads else None
-        return None if self.sensor == "none" else self.sensor
+            return next(iter(INSTRUMENTS)) if TASK_KINDS[self.kind].reads else None
+        return None if self.sensor == NO_SENSOR else self.sensor
 
 
 def _fields() -> dict[str, Any]:
     """A field for each kind, of which one is given, and those that all kinds share."""
     fields: dict[str, Any] = {name: (kind.model | None, None) for name, kind in TASK_KINDS.items()}
-    reads = "What is read at each point; by default the half-cell at contacts, nothing elsewhere."
+    default = next(iter(INSTRUMENTS)).replace("_", "-")
+    reads = f"What is read at each point; by default the {default} at contacts, nothing elsewhere."
     profile = "One of the platform's profiles; without it, the mission's."
-    fields["sensor"] = (Literal["half_cell", "none"] | None, Field(None, description=reads))
+    fields["sensor"] = (choice_of((*INSTRUMENTS, NO_SENSOR)) | None, Field(None, description=reads))
     fields["impedance"] = (Name | None, Field(None, description=profile))
     return fields
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Annotated, Literal
+from typing import Annotated
 
 from pydantic import Field
 
@@ -12,8 +12,6 @@ from inspect_cli.schema.base import Positive, Strict
 MAX_POINTS = 10_000
 SHORTEST_M = 1e-4
 """Lines that are shorter are marks of the pen, not lines."""
-
-Instrument = Literal["half_cell"]
 
 Coordinate = Annotated[float, Field(ge=-1000.0, le=1000.0)]
 Place = tuple[Coordinate, Coordinate, Coordinate]

@@ -9,6 +9,7 @@ from pydantic import Field, model_validator
 from inspect_cli.schema.base import Name, NonNegative, Positive, Strict
 from inspect_cli.schema.start import Start
 from inspect_cli.schema.tasks.base import CONTACT_MODES, MAX_POINTS, ContactOptions, TaskKind
+from inspect_cli.schema.vehicle.sensors import INSTRUMENTS
 
 
 class KeepOut(Strict):
@@ -65,9 +66,11 @@ class Coverage(ContactOptions):
         return self
 
     def check_instrument(self, instrument: str | None) -> None:
-        """Refuse to refine what is not read."""
+        """Refuse to refine where no potentials are read."""
         if self.refine and instrument is None:
             raise ValueError("refine compares readings; sensor: none takes none")
+        if self.refine and not INSTRUMENTS[instrument or ""].reads_potentials:
+            raise ValueError(f"refine compares potentials; sensor: {instrument} reads none")
 
 
 KIND = TaskKind(

@@ -14,7 +14,12 @@ from pydantic_core import InitErrorDetails, PydanticCustomError
 from inspect_cli.errors import InputError
 from inspect_cli.schema.base import Count, Name, NonNegative, Positive, Strict
 from inspect_cli.schema.positioning import Estimation
-from inspect_cli.schema.vehicle.sensors import AnySensor, PoseSourceModel, SensorModel
+from inspect_cli.schema.vehicle.sensors import (
+    AnySensor,
+    InstrumentModel,
+    PoseSourceModel,
+    SensorModel,
+)
 
 Sensor = TypeVar("Sensor", bound=SensorModel)
 
@@ -111,9 +116,29 @@ class PlatformBase(Strict):
         """
         found = self.find(model)
         if found is None:
-            listed = ", ".join(f"{n} ({s.kind})" for n, s in self.sensors.items()) or "none"
             (kind,) = get_args(model.model_fields["kind"].annotation)
-            raise InputError(f"{self.name} has no sensor of kind {kind}; its sensors: {listed}")
+            raise InputError(self._lacks(kind))
+        return found
+
+    def _lacks(self, kind: str) -> str:
+        listed = ", ".join(f"{n} ({s.kind})" for n, s in self.sensors.items()) or "none"
+        return f"{self.name} has no sensor of kind {kind}; its sensors: {listed}"
+
+    @property
+    def instruments(self) -> dict[str, InstrumentModel]:
+        """The sensors that read points, by kind."""
+        sensors = self.sensors.values()
+        return {s.kind: s for s in sensors if isinstance(s, InstrumentModel)}
+
+    def instrument(self, kind: str) -> InstrumentModel:
+        """The instrument of a kind.
+
+        Raises:
+            InputError: the platform has none.
+        """
+        found = self.instruments.get(kind)
+        if found is None:
+            raise InputError(self._lacks(kind))
         return found
 
     def name_of(self, model: type[SensorModel]) -> str | None:

@@ -11,7 +11,12 @@ from typing import Annotated
 
 from inspect_cli.plugins import registered
 from inspect_cli.schema.registry import OneOf
-from inspect_cli.schema.vehicle.sensors.base import MountModel, PoseSourceModel, SensorModel
+from inspect_cli.schema.vehicle.sensors.base import (
+    InstrumentModel,
+    MountModel,
+    PoseSourceModel,
+    SensorModel,
+)
 from inspect_cli.schema.vehicle.sensors.depth_camera import DepthCameraModel
 from inspect_cli.schema.vehicle.sensors.half_cell import HalfCellModel
 from inspect_cli.schema.vehicle.sensors.imu import ImuModel
@@ -19,11 +24,13 @@ from inspect_cli.schema.vehicle.sensors.odometry import OdometryModel
 from inspect_cli.schema.vehicle.sensors.pose_tracker import PoseTrackerModel
 
 __all__ = [
+    "INSTRUMENTS",
     "SENSORS",
     "AnySensor",
     "DepthCameraModel",
     "HalfCellModel",
     "ImuModel",
+    "InstrumentModel",
     "MountModel",
     "OdometryModel",
     "PoseSourceModel",
@@ -43,5 +50,10 @@ SENSORS: dict[str, type[SensorModel]] = registered(
 )
 """In the order in which a flight samples them: what corrects the estimate comes before what is
 placed by it."""
+
+INSTRUMENTS: dict[str, type[InstrumentModel]] = {
+    name: model for name, model in SENSORS.items() if issubclass(model, InstrumentModel)
+}
+"""Those of them that read points. A task that names none reads with the first."""
 
 AnySensor = Annotated[SensorModel, OneOf(SENSORS)]

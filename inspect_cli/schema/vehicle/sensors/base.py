@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from typing import ClassVar, Literal
 
 from inspect_cli.schema.base import Count, Strict, Triple
@@ -16,14 +17,32 @@ class SensorModel(Strict):
     uneven: ClassVar[bool] = False
     """Whether the rate may fail to divide the physics rate. A sample is then taken at the first
     physics step at or after each k / rate."""
-    on_demand: ClassVar[bool] = False
-    """Whether the sensor is only sampled in flights with a target that is read by it."""
     has_pixels: ClassVar[bool] = False
     """Whether it returns images, which a fault may leave holes in."""
 
     kind: str
     rate_hz: Count
     """Samples per second."""
+
+
+class InstrumentModel(SensorModel):
+    """A sensor that is read at points. It is sampled in flights that read with it alone.
+
+    What it asks of a plan is nothing unless the kind says otherwise.
+    """
+
+    reads_potentials: ClassVar[bool] = False
+    """Whether it reads potentials of a half-cell, which rules of ASTM C876 compare."""
+
+    @property
+    def least_force_n(self) -> float:
+        """Force on the tool, N, below which it does not read."""
+        return 0.0
+
+    @property
+    def reach_m(self) -> float:
+        """Length of its cable to the ground, m; infinite without one."""
+        return math.inf
 
 
 class PoseSourceModel(SensorModel, PoseNoise):

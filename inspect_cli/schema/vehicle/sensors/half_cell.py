@@ -6,13 +6,13 @@ from typing import ClassVar, Literal
 
 from inspect_cli.schema.base import NonNegative, Positive
 from inspect_cli.schema.survey import Electrode
-from inspect_cli.schema.vehicle.sensors.base import SensorModel
+from inspect_cli.schema.vehicle.sensors.base import InstrumentModel
 
 
-class HalfCellModel(SensorModel):
+class HalfCellModel(InstrumentModel):
     """The half-cell probe, its load cell and the rule for a valid reading."""
 
-    on_demand: ClassVar[bool] = True
+    reads_potentials: ClassVar[bool] = True
 
     kind: Literal["half_cell"]
     electrode: Electrode = "CSE"
@@ -36,3 +36,13 @@ class HalfCellModel(SensorModel):
     """Longest time to wait beyond the dwell before the point is given up."""
     cable_m: Positive
     """Length of the cable to the reinforcement's clamp."""
+
+    @property
+    def least_force_n(self) -> float:
+        """Force below which no reading counts."""
+        return self.min_force_n
+
+    @property
+    def reach_m(self) -> float:
+        """Length of the cable."""
+        return self.cable_m

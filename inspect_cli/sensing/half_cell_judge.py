@@ -1,4 +1,4 @@
-"""When a probe's samples make a reading that counts; measured values alone decide.
+"""When samples of the half-cell make a reading that counts; measured values alone decide.
 
 Force.      The load cell's moving mean over 0.2 s must be at least ``min_force_n``: noise on a
             light contact does not make it sufficient, and a lift shorter than that passes if the
@@ -19,9 +19,11 @@ from __future__ import annotations
 
 import math
 from collections import deque
+from functools import partial
 from statistics import fmean, median
 from typing import Final, NamedTuple
 
+from inspect_cli.interfaces import Judging
 from inspect_cli.records import InvalidReason, Probe, Reading
 from inspect_cli.schema.vehicle import HalfCellModel
 from inspect_cli.spatial.arrays import Vector
@@ -158,3 +160,8 @@ class ReadingJudge:
         medians = [median(part) for part in parts]
         stable = max(medians) - min(medians) <= self._model.stable_v
         return InvalidReason.NONE if stable else InvalidReason.UNSTABLE
+
+
+def half_cell_judging(model: HalfCellModel) -> Judging:
+    """How samples of a half-cell become readings."""
+    return Judging(Probe, Reading, partial(ReadingJudge, model))
