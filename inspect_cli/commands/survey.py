@@ -14,8 +14,8 @@ from inspect_cli.commands.flying import FlightInterrupted, Progress, fly_into, t
 from inspect_cli.commands.plan import surveyor_of
 from inspect_cli.commands.runs import METRICS_NAME, write_json, write_model
 from inspect_cli.log.rasters import TrueRaster
-from inspect_cli.metrics.assessed import assessor
-from inspect_cli.metrics.survey import joined_result, scorer
+from inspect_cli.metrics.readings import assessor, scorer
+from inspect_cli.metrics.survey import joined_result
 from inspect_cli.planning.coverage import Surveyor
 from inspect_cli.planning.lattice import Place
 from inspect_cli.planning.refinement import Measured, places_between

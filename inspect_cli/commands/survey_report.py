@@ -28,9 +28,9 @@ from inspect_cli.commands.runs import (
 from inspect_cli.commands.surface_maps import with_maps
 from inspect_cli.errors import InputError, LogError
 from inspect_cli.log.reader import RunLog, read_log
-from inspect_cli.metrics.assessed import assessor
 from inspect_cli.metrics.evaluate import evaluate_with_arrays
-from inspect_cli.metrics.survey import joined_evaluation, scorer
+from inspect_cli.metrics.readings import assessor, scorer
+from inspect_cli.metrics.survey import joined_evaluation
 from inspect_cli.pictures.render import Pictures
 from inspect_cli.reporting.documents.flight import report_document, survey_document
 from inspect_cli.schema.coverage import CoveragePlan, Sortie

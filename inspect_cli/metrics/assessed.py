@@ -7,25 +7,21 @@ firm and how wet the contact was.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Sequence
-from functools import partial
+from collections.abc import Iterable, Sequence
 from typing import TYPE_CHECKING
 
 import numpy as np
 
 from inspect_cli.assessment.electrodes import basis_of
-from inspect_cli.metrics.planned_cells import PlannedCells, planned_cells, widths_of
+from inspect_cli.metrics.planned_cells import PlannedCells, widths_of
 from inspect_cli.schema.assessment import Basis
 from inspect_cli.schema.mission import Mission
-from inspect_cli.schema.plan import Target
 from inspect_cli.schema.result import PointResult
-from inspect_cli.schema.vehicle import HalfCellModel, PlatformBase
+from inspect_cli.schema.vehicle import HalfCellModel
 from inspect_cli.spatial.arrays import Vector
 
 if TYPE_CHECKING:
     from inspect_cli.assessment.assess import Assessed
-
-AssessAll = Callable[[Sequence[PointResult]], "tuple[Assessed, ...]"]
 
 
 def assess_points(
@@ -52,12 +48,6 @@ def assess_points(
         basis = basis_on(mission, surface, probe.electrode)
         assessed.append(assess(surface, readings, basis=basis, cell_m=widths_of(own, cells)))
     return tuple(assessed)
-
-
-def assessor(mission: Mission, platform: PlatformBase, targets: Iterable[Target]) -> AssessAll:
-    """What assesses all points of a survey, whose flights go to these targets."""
-    probe, cells = platform.find(HalfCellModel), planned_cells(targets)
-    return partial(assess_points, mission=mission, probe=probe, cells=cells)
 
 
 def with_uncertainty(

@@ -6,8 +6,8 @@ from inspect_cli.metrics import (
     contact,
     estimation,
     guidance,
-    half_cell,
     pull,
+    readings,
     tracking,
 )
 from inspect_cli.metrics.catalogue_assessment import ASSESSMENT_METRICS
@@ -15,6 +15,7 @@ from inspect_cli.metrics.catalogue_estimation import ESTIMATION_METRICS
 from inspect_cli.metrics.catalogue_flight import FLIGHT_METRICS
 from inspect_cli.metrics.catalogue_scoring import SCORING_METRICS
 from inspect_cli.metrics.catalogue_sliding import SLIDING_METRICS
+from inspect_cli.metrics.instruments import INSTRUMENTS
 from inspect_cli.metrics.joined import (
     GREATEST,
     LEAST,
@@ -26,7 +27,7 @@ from inspect_cli.metrics.joined import (
 from inspect_cli.metrics.spec import MetricSpec
 from inspect_cli.records import (
     Estimate,
-    Reading,
+    PointReading,
     Reference,
     State,
     SurfaceEstimate,
@@ -36,9 +37,8 @@ from inspect_cli.records import (
 
 FOLLOWED = (State, Reference)
 ESTIMATED = (State, Reference, Estimate)
-READ = (Reading,)
+READ = (PointReading,)
 PULLED = (State, Reference, TrueDisturbance)
-READ_TRULY = (Reading, State, Reference, TrueContact)
 
 METRICS: dict[str, MetricSpec] = {
     "tracking.position_rmse_x_m": MetricSpec(
@@ -190,79 +190,26 @@ METRICS: dict[str, MetricSpec] = {
     ),
     "contact.points_total": MetricSpec(
         "1",
-        half_cell.points_total,
+        readings.points_total,
         "points that the plan wants read",
         (),
         SUM,
     ),
     "contact.points_valid": MetricSpec(
         "1",
-        half_cell.points_valid,
+        readings.points_valid,
         "points with a valid reading",
         READ,
         SUM,
     ),
     "contact.valid_share": MetricSpec(
         "1",
-        half_cell.valid_share,
+        readings.valid_share,
         "valid readings as a share of the planned points",
         READ,
         MEAN_OVER_POINTS,
     ),
-    "half_cell.false_valid_points": MetricSpec(
-        "1",
-        half_cell.false_valid_points,
-        "valid readings whose tool did not truly press hard enough",
-        (Reading, State, Reference),
-        SUM,
-    ),
-    "half_cell.potential_error_max_v": MetricSpec(
-        "V",
-        half_cell.potential_error_max,
-        "largest error of an accepted potential against the specimen at the true contact",
-        READ_TRULY,
-        GREATEST,
-    ),
-    "half_cell.resistance_error_rel_max": MetricSpec(
-        "1",
-        half_cell.resistance_error_rel_max,
-        "largest relative error of an accepted resistance against the specimen",
-        READ_TRULY,
-        GREATEST,
-    ),
-    "half_cell.potential_min_v": MetricSpec(
-        "V",
-        half_cell.potential_min,
-        "least potential of the valid readings",
-        READ,
-        LEAST,
-    ),
-    "half_cell.potential_min_point": MetricSpec(
-        "1",
-        half_cell.potential_min_point,
-        "point k, from 1 in the plan's order, with the least valid potential; none if passive",
-        READ,
-    ),
-    "half_cell.active_points_count": MetricSpec(
-        "1",
-        half_cell.active_points_count,
-        "points with the combined verdict active",
-        READ,
-        SUM,
-    ),
-    "half_cell.active_mask": MetricSpec(
-        "1",
-        half_cell.active_mask,
-        "which points are active: sum of 2^(k−1) over active points k, so 2 and 3 give 6",
-        READ,
-    ),
-    "half_cell.map_mismatches": MetricSpec(
-        "1",
-        half_cell.map_mismatches,
-        "points whose verdict differs from the specimen's; a point without one differs",
-        READ_TRULY,
-        SUM,
-    ),
+    **{name: spec for row in INSTRUMENTS.values() for name, spec in row.metrics.items()},
     "pull.force_peak_n": MetricSpec(
         "N", pull.force_peak, "largest force of the rope on the tip over all pulls", PULLED
     ),

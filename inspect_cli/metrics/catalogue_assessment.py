@@ -12,16 +12,13 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from inspect_cli.metrics.assessed import assess_points
 from inspect_cli.metrics.flight import Flight, NotMeasured
 from inspect_cli.metrics.joined import ANEW
-from inspect_cli.metrics.planned_cells import planned_cells
-from inspect_cli.metrics.points import point_results
+from inspect_cli.metrics.readings import assessor, point_results
 from inspect_cli.metrics.spec import MetricSpec
-from inspect_cli.records import Reading
+from inspect_cli.records import PointReading
 from inspect_cli.schema.assessment import SurfaceAssessment
 from inspect_cli.schema.result import Metric
-from inspect_cli.schema.vehicle import HalfCellModel
 from inspect_cli.spatial.arrays import Vector
 
 if TYPE_CHECKING:
@@ -130,9 +127,8 @@ def _metric(finding: Finding, assessed: Sequence[Assessed]) -> Metric:
 def _function(finding: Finding) -> Callable[[Flight], float]:
     def value(flight: Flight) -> float:
         _ = flight.read_targets  # without them there is nothing to assess
-        points = point_results(flight)
-        probe = flight.platform.find(HalfCellModel)
-        assessed = assess_points(points, flight.mission, probe, planned_cells(flight.plan.targets))
+        assess = assessor(flight.mission, flight.platform, flight.plan.targets)
+        assessed = assess(point_results(flight))
         if not assessed:
             raise NotMeasured("no point to read lies on a known surface")
         return finding.value(assessed)
@@ -151,6 +147,6 @@ def _count(summary: SurfaceAssessment, name: str) -> int:
 
 
 ASSESSMENT_METRICS: dict[str, MetricSpec] = {
-    name: MetricSpec(f.unit, _function(f), f.meaning, (Reading,), ANEW)
+    name: MetricSpec(f.unit, _function(f), f.meaning, (PointReading,), ANEW)
     for name, f in FINDINGS.items()
 }

@@ -8,9 +8,9 @@ from dataclasses import dataclass
 
 from inspect_cli.metrics.flight import Flight, NotMeasured
 from inspect_cli.metrics.joined import ANEW
+from inspect_cli.metrics.readings import scoring_of
 from inspect_cli.metrics.spec import MetricSpec
-from inspect_cli.metrics.truth_scoring import scoring_of
-from inspect_cli.records import Reading
+from inspect_cli.records import PointReading
 from inspect_cli.schema.result import Metric
 from inspect_cli.schema.scoring import Scoring
 
@@ -118,6 +118,6 @@ def _function(score: Score) -> Callable[[Flight], float]:
 
 
 SCORING_METRICS: dict[str, MetricSpec] = {
-    name: MetricSpec(score.unit, _function(score), score.meaning, (Reading,), ANEW)
+    name: MetricSpec(score.unit, _function(score), score.meaning, (PointReading,), ANEW)
     for name, score in SCORES.items()
 }

@@ -10,20 +10,22 @@ import numpy as np
 
 from inspect_cli.log.reader import RunLog
 from inspect_cli.metrics.acceptance import answer_all
-from inspect_cli.metrics.assessed import assess_points, with_uncertainty
+from inspect_cli.metrics.assessed import with_uncertainty
 from inspect_cli.metrics.catalogue import METRICS
 from inspect_cli.metrics.catalogue_assessment import assessment_metrics
 from inspect_cli.metrics.catalogue_scoring import metrics_of
 from inspect_cli.metrics.evaluation import Evaluation
 from inspect_cli.metrics.flight import Flight, NotMeasured
-from inspect_cli.metrics.planned_cells import planned_cells
-from inspect_cli.metrics.points import point_results
+from inspect_cli.metrics.readings import (
+    assessor,
+    channels_of,
+    has_readings,
+    point_results,
+    scoring_of,
+)
 from inspect_cli.metrics.spec import MetricSpec
-from inspect_cli.metrics.truth_scoring import scoring_of
-from inspect_cli.records import Reading
 from inspect_cli.schema.result import Metric, PointResult, Result
 from inspect_cli.schema.scoring import Scoring
-from inspect_cli.schema.vehicle import HalfCellModel
 
 if TYPE_CHECKING:
     from inspect_cli.assessment.assess import Assessed
@@ -71,15 +73,14 @@ def evaluate_with_arrays(log: RunLog) -> Evaluation:
 
 def _assessed(flight: Flight, points: Sequence[PointResult]) -> tuple[Assessed, ...]:
     """The findings of every surface; none of a log that has no readings."""
-    if flight.log.rows(Reading) is None:
+    if not has_readings(flight):
         return ()
-    probe = flight.platform.find(HalfCellModel)
-    return assess_points(points, flight.mission, probe, planned_cells(flight.plan.targets))
+    return assessor(flight.mission, flight.platform, flight.plan.targets)(points)
 
 
 def _scoring(flight: Flight) -> Scoring | None:
     """The verdicts against the truth, taken once for all the metrics that show parts of it."""
-    if flight.log.rows(Reading) is None:
+    if not has_readings(flight):
         return None
     try:
         return scoring_of(flight)
@@ -89,7 +90,8 @@ def _scoring(flight: Flight) -> Scoring | None:
 
 def measure(spec: MetricSpec, flight: Flight) -> Metric:
     """The metric's value, or None and the reason why the log cannot tell it."""
-    missing = [record.topic for record in spec.needs if flight.log.rows(record) is None]
+    needed = channels_of(flight, spec.needs)
+    missing = [record.topic for record in needed if flight.log.rows(record) is None]
     if missing:
         return Metric(value=None, unit=spec.unit, why=f"the log has no {', '.join(missing)}")
     try:

@@ -163,6 +163,17 @@ class Flight:
             raise NotMeasured("the plan has no point to read")
         return targets
 
+    def read_by(self, instrument: str) -> tuple[Target, ...]:
+        """The targets at which one instrument shall be read.
+
+        Raises:
+            NotMeasured: the plan has none.
+        """
+        targets = tuple(t for t in self.read_targets if t.sensor == instrument)
+        if not targets:
+            raise NotMeasured(f"the plan has no point to read with {instrument}")
+        return targets
+
     def contact_rows(self, target: int) -> Rows:
         """Rows of a target from its approach to the retreat from it, first touch to release."""
         busy = self.during(*AT_SURFACE)

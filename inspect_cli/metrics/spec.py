@@ -11,8 +11,22 @@ from inspect_cli.records import Record
 
 
 @dataclass(frozen=True)
+class Tolerance:
+    """A metric may differ from its reference by ``absolute`` + ``relative`` · |reference|."""
+
+    absolute: float
+    relative: float
+
+    def around(self, reference: float) -> float:
+        """The largest allowed difference."""
+        return self.absolute + self.relative * abs(reference)
+
+
+@dataclass(frozen=True)
 class MetricSpec:
     """A metric: ``function`` computes it from a flight that has the channels ``needs``.
+
+    ``PointReading`` in ``needs`` stands for the readings of every instrument of the plan.
 
     ``joined`` says what the flights of one survey come to together.
     """

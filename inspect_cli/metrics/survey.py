@@ -2,20 +2,18 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Iterable, Sequence
 from typing import TYPE_CHECKING
 
-from inspect_cli.log.rasters import TrueRaster
 from inspect_cli.metrics.acceptance import answer_all
-from inspect_cli.metrics.assessed import AssessAll, with_uncertainty
+from inspect_cli.metrics.assessed import with_uncertainty
 from inspect_cli.metrics.catalogue import METRICS
 from inspect_cli.metrics.catalogue_assessment import assessment_metrics
 from inspect_cli.metrics.catalogue_scoring import metrics_of
 from inspect_cli.metrics.evaluation import Evaluation
-from inspect_cli.metrics.flight import NotMeasured
+from inspect_cli.metrics.instruments import INSTRUMENTS
 from inspect_cli.metrics.joined import Joined
-from inspect_cli.metrics.planned_cells import planned_cells
-from inspect_cli.metrics.truth_scoring import score
+from inspect_cli.metrics.readings import AssessAll, ScoreAll
 from inspect_cli.schema.mission import Acceptance
 from inspect_cli.schema.plan import Target
 from inspect_cli.schema.result import Metric, PointResult, Result, Status
@@ -24,10 +22,8 @@ from inspect_cli.schema.scoring import Scoring
 if TYPE_CHECKING:
     from inspect_cli.assessment.assess import Assessed
 
-ScoreAll = Callable[[Sequence[PointResult]], Scoring | None]
-
 UNVISITED = "not visited"
-MISSED = ("contact.points_total", "half_cell.map_mismatches")
+MISSED = ("contact.points_total", *(n for row in INSTRUMENTS.values() for n in row.missed))
 """Counts in which a point that no flight came to counts, too."""
 
 
@@ -59,7 +55,7 @@ def joined_evaluation(
         acceptance: of the mission.
         seed: of the whole run, from which those of the flights were drawn.
         score_all: holds all points together against what is truly so, where that is known.
-        assess_all: finds what all points together say (``assessed.assessor``).
+        assess_all: finds what all points together say (``readings.assessor``).
     """
     first = results[0]
     points = tuple(_numbered([*_visited(results), *map(_never_read, unvisited)]))
@@ -80,22 +76,6 @@ def joined_evaluation(
         assessment=tuple(one.summary for one in assessed),
     )
     return Evaluation(result, assessed)
-
-
-def scorer(rasters: Sequence[TrueRaster], targets: Iterable[Target]) -> ScoreAll:
-    """What scores all points of a survey, whose flights go to these targets.
-
-    It gives None where nothing can be scored.
-    """
-    cells = planned_cells(targets)
-
-    def score_all(points: Sequence[PointResult]) -> Scoring | None:
-        try:
-            return score(points, rasters, cells)
-        except NotMeasured:
-            return None
-
-    return score_all
 
 
 def joined_metrics(
@@ -187,13 +167,8 @@ def _never_read(target: Target) -> PointResult:
         p_W=target.p_WC,
         surface=target.surface or "",
         uv_m=target.uv_m,
-        potential_mv=None,
-        resistance_ohm=None,
-        resistivity_ohm_m=None,
         probe_force_n=None,
         contact_s=0.0,
-        astm_class=None,
-        corrosion=None,
     )
 
 

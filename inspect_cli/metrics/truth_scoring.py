@@ -27,9 +27,8 @@ from scipy.ndimage import label
 from inspect_cli.assessment.classes import sustains_corrosion
 from inspect_cli.log.rasters import TrueRaster
 from inspect_cli.metrics.cells import Cells, cells_around, weighed
-from inspect_cli.metrics.flight import Flight, NotMeasured
-from inspect_cli.metrics.planned_cells import PlannedCells, planned_cells, widths_of
-from inspect_cli.metrics.points import point_results
+from inspect_cli.metrics.flight import NotMeasured
+from inspect_cli.metrics.planned_cells import PlannedCells, widths_of
 from inspect_cli.schema.result import PointResult
 from inspect_cli.schema.scoring import (
     UNREAD,
@@ -64,20 +63,6 @@ class Judged:
             tuple(point.corrosion or UNREAD for point, _ in placed),
             tuple(point.astm_class or UNREAD for point, _ in placed),
         )
-
-
-def scoring_of(flight: Flight) -> Scoring:
-    """The scoring of one flight.
-
-    Raises:
-        NotMeasured: nothing was to be read, or the log does not know the truth there.
-    """
-    wanted = {target.index for target in flight.read_targets}
-    rasters = flight.log.true_rasters()
-    if not rasters:
-        raise NotMeasured(NO_TRUTH)
-    points = [point for point in point_results(flight) if point.index in wanted]
-    return score(points, rasters, planned_cells(flight.plan.targets))
 
 
 def score(

@@ -7,24 +7,11 @@ percent plus an absolute amount that does not matter in its unit. Counts may not
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
+from inspect_cli.metrics.instruments import INSTRUMENTS
+from inspect_cli.metrics.spec import Tolerance
 from inspect_cli.regression.outcome import Change
 from inspect_cli.regression.reference import ReferenceMetrics, rounded
 from inspect_cli.schema.result import Metric, Result
-
-
-@dataclass(frozen=True)
-class Tolerance:
-    """A metric may differ from its reference by ``absolute`` + ``relative`` · |reference|."""
-
-    absolute: float
-    relative: float
-
-    def around(self, reference: float) -> float:
-        """The largest allowed difference."""
-        return self.absolute + self.relative * abs(reference)
-
 
 EXACT = Tolerance(0.0, 0.0)
 
@@ -56,9 +43,6 @@ BY_METRIC: dict[str, Tolerance] = {
     "contact.residual_cv": Tolerance(0.005, 0.10),
     "contact.oscillation_growth": Tolerance(0.05, 0.10),
     "estimation.moving_over_hovering": Tolerance(0.05, 0.10),
-    "half_cell.resistance_error_rel_max": Tolerance(0.002, 0.10),
-    # Two points on either side of a site may give the same reading.
-    "half_cell.potential_min_point": Tolerance(1.0, 0.0),
     # A difference of about 150 mV may fall on either side.
     "assessment.proposals_count": Tolerance(1.0, 0.0),
     "flight.energy_planned_over_flown": Tolerance(0.0, 0.01),
@@ -67,6 +51,7 @@ BY_METRIC: dict[str, Tolerance] = {
     "flight.saturated_share": Tolerance(0.002, 0.10),
     "pull.along_over_z": Tolerance(0.1, 0.15),
     "pull.along_over_attitude": Tolerance(0.1, 0.15),
+    **{name: t for row in INSTRUMENTS.values() for name, t in row.tolerances.items()},
 }
 """Exceptions from ``BY_UNIT``."""
 

@@ -39,6 +39,10 @@ class Metric(Strict):
     why: str = ""
 
 
+def _is_empty(values: dict[str, float]) -> bool:
+    return not values
+
+
 class PointResult(Strict):
     """One target of the plan and what became of it."""
 
@@ -54,17 +58,17 @@ class PointResult(Strict):
     uv_m: tuple[float, float] | None
     read_mv: float | None = None
     """As the voltmeter showed it: against the platform's electrode, not corrected."""
-    potential_mv: float | None
+    potential_mv: float | None = None
     """As evaluated: against CSE at 22.2 °C."""
     potential_sd_mv: float | None = None
     """Standard uncertainty of the evaluated potential, of this reading by itself."""
-    resistance_ohm: float | None
-    resistivity_ohm_m: float | None
+    resistance_ohm: float | None = None
+    resistivity_ohm_m: float | None = None
     probe_force_n: float | None
     contact_s: float | None
     """None where nobody timed it, as of readings by hand."""
-    astm_class: AstmClass | None
-    corrosion: Corrosion | None
+    astm_class: AstmClass | None = None
+    corrosion: Corrosion | None = None
     """The combined verdict of potential and resistance, by the rule that the report states."""
     true_force_n: float | None = None
     """Mean true normal force over the last 2 s of the dwell."""
@@ -77,6 +81,9 @@ class PointResult(Strict):
     true_resistivity_ohm_m: float | None = None
     true_corrosion: Corrosion | None = None
     """What the combined rule says of the specimen under the tip."""
+    values: Annotated[dict[str, float], Field(exclude_if=_is_empty)] = {}
+    """What another instrument than a half-cell read, by names of its own; left out where there is
+    nothing."""
 
 
 class Result(Strict):

@@ -12,7 +12,7 @@ from inspect_cli.log.reader import RunLog
 from inspect_cli.metrics.catalogue import METRICS
 from inspect_cli.metrics.evaluate import measure
 from inspect_cli.metrics.flight import Flight
-from inspect_cli.records import CORE_RECORDS
+from inspect_cli.records import CORE_RECORDS, PointReading
 from inspect_cli.schema.loading import load_mission
 
 SUFFIXES = {
@@ -59,7 +59,7 @@ def test_its_name_ends_in_its_unit(name: str) -> None:
     assert name.count(".") == 1
     assert spec.meaning
     assert not spec.meaning.endswith(".")
-    assert set(spec.needs) <= set(CORE_RECORDS)
+    assert set(spec.needs) <= {PointReading, *CORE_RECORDS}
 
 
 @pytest.mark.parametrize("name", METRICS)

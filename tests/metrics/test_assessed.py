@@ -11,10 +11,11 @@ import numpy as np
 import pytest
 from synthetic import PRESS_S, READING_ERROR_V, SyntheticFlight, nine_points, specimen
 
-from inspect_cli.metrics.assessed import assess_points, assessor, with_uncertainty
+from inspect_cli.metrics.assessed import assess_points, with_uncertainty
 from inspect_cli.metrics.catalogue_assessment import FINDINGS
 from inspect_cli.metrics.evaluate import evaluate
 from inspect_cli.metrics.planned_cells import planned_cells
+from inspect_cli.metrics.readings import assessor
 from inspect_cli.metrics.survey import joined_result
 from inspect_cli.records import Reading
 from inspect_cli.schema.base import Strict

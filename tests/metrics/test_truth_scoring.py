@@ -21,7 +21,8 @@ from inspect_cli.metrics.cells import cells_around, in_squares, nearest_to, weig
 from inspect_cli.metrics.evaluate import evaluate
 from inspect_cli.metrics.flight import NotMeasured
 from inspect_cli.metrics.planned_cells import PlannedCells, planned_cells
-from inspect_cli.metrics.survey import joined_result, scorer
+from inspect_cli.metrics.readings import scorer
+from inspect_cli.metrics.survey import joined_result
 from inspect_cli.metrics.truth_scoring import Judged, score, score_surface
 from inspect_cli.planning.planner import make_plan
 from inspect_cli.schema.mission import Mission
