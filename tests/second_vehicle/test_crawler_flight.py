@@ -82,7 +82,7 @@ def test_it_leans_as_statics_say(flight):
     assert MASS * G * np.tan(pitch.mean()) == pytest.approx(PUSH_N, rel=0.1)
     assert pitch.mean() == pytest.approx(pitch_of(trimmed(flight).q_WB[None])[0], rel=0.1)
     hinge = flight.logged("leaning", "joint_angle")[HELD, 0]
-    assert hinge.mean() == pytest.approx(trimmed(flight).arm_angle[0], abs=np.radians(1.0))
+    assert hinge.mean() == pytest.approx(trimmed(flight).joint_angle[0], abs=np.radians(1.0))
     height = flight.logged("leaning", "p_WB")[-1, 2]
     assert height == pytest.approx(trimmed(flight).p_WB[2], abs=0.03)
 

@@ -68,7 +68,7 @@ class CrawlerStack:
         self.armed = False
         self.point = SetPoint(start.p_WB.copy())
         self._filter = ErrorStateFilter(
-            numbers.imu, numbers.pose, numbers.control_hz, numbers.pose_hz
+            numbers.imu, numbers.pose, numbers.imu.rate_hz, numbers.pose.rate_hz
         )
         self._numbers, self._abilities, self._body = numbers, abilities, body
         self._thrusts = np.linalg.pinv(abilities.allocation)
