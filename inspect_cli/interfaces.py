@@ -1,4 +1,4 @@
-"""What the rooms ask of each other: a vehicle's Capabilities, its FlightStack, a Sensor.
+"""What the rooms ask of each other: a vehicle's Capabilities, its FlightStack.
 
 Planning, guidance and autonomy know a vehicle through these alone, so that a rigid tilt-rotor,
 an articulated arm and a perching manipulator are planned and flown by the same code.
@@ -12,7 +12,7 @@ from typing import Literal, Protocol
 
 import numpy as np
 
-from inspect_cli.records import Command, Estimate, Lengths, Pose, Record, Reference, State
+from inspect_cli.records import Command, DepthImage, Estimate, Lengths, Pose, Record, Reference
 from inspect_cli.spatial.arrays import Matrix, Points, Vector
 
 TOOL = "tool"
@@ -178,7 +178,7 @@ class Capabilities(Protocol):
 
     @property
     def lengths(self) -> Lengths:
-        """The numbers that shapes in records refer to (``n_rotors``, ``n_joints``, ``n_arm``)."""
+        """The numbers that shapes in records refer to; see ``inspect_cli.records``."""
         ...
 
     @property
@@ -241,18 +241,6 @@ class Capabilities(Protocol):
         ...
 
 
-@dataclass(frozen=True)
-class DepthImage:
-    """A sample of a depth camera.
-
-    ``points_D`` (rows · columns, 3) m, in the camera's frame D, NaN for pixels without a return;
-    the camera overwrites them with its next image.
-    """
-
-    t_s: float
-    points_D: Points
-
-
 class FlightStack(Protocol):
     """Estimation, guidance and control of one vehicle. It never sees a State."""
 
@@ -299,17 +287,4 @@ class FlightStack(Protocol):
 
     def believed(self, frame: str) -> tuple[Vector, Matrix]:
         """(p, R) in W of a frame of the vehicle by the estimate: ``tool``, or a camera's name."""
-        ...
-
-
-class Sensor(Protocol):
-    """A simulated instrument. It reads the truth and writes its own measurement."""
-
-    @property
-    def measurement(self) -> Record:
-        """The record that ``sample`` fills."""
-        ...
-
-    def sample(self, state: State) -> None:
-        """Measure now."""
         ...

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import difflib
 import hashlib
+import math
 import os
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
@@ -19,6 +20,7 @@ from inspect_cli.schema.coverage import CoveragePlan, CoveragePlanFile
 from inspect_cli.schema.loading import Loaded, load_mission, load_platform, place_in_mission
 from inspect_cli.schema.nodes import Step
 from inspect_cli.schema.plan import Plan, PlanFile
+from inspect_cli.schema.vehicle import HalfCellModel, PlatformBase
 from inspect_cli.structure.drawings import drawings_of
 from inspect_cli.structure.surfaces import believed_surfaces
 from inspect_cli.vehicles import build_vehicle
@@ -70,7 +72,7 @@ def plan_loaded(loaded: Loaded, vehicle: Vehicle) -> Plan | CoveragePlan:
     """
     _check_metrics(loaded)
     _check_tasks(loaded, vehicle)
-    half_cell = loaded.platform.sensors.half_cell
+    cable_m, min_force_n = _probe_limits(loaded.platform)
     try:
         if loaded.mission.is_survey:
             return surveyor_of(loaded, vehicle).survey()
@@ -79,8 +81,8 @@ def plan_loaded(loaded: Loaded, vehicle: Vehicle) -> Plan | CoveragePlan:
             loaded.platform.name,
             vehicle.capabilities,
             believed_surfaces(loaded.mission, loaded.root),
-            half_cell.cable_m,
-            half_cell.min_force_n,
+            cable_m,
+            min_force_n,
             loaded.platform.battery.energy_wh,
             drawings_of(loaded.mission, loaded.root),
         )
@@ -90,16 +92,22 @@ def plan_loaded(loaded: Loaded, vehicle: Vehicle) -> Plan | CoveragePlan:
 
 def surveyor_of(loaded: Loaded, vehicle: Vehicle) -> Surveyor:
     """The planner of a mission that covers a surface."""
-    half_cell = loaded.platform.sensors.half_cell
+    cable_m, min_force_n = _probe_limits(loaded.platform)
     return Surveyor(
         loaded.mission,
         loaded.platform.name,
         vehicle.capabilities,
         believed_surfaces(loaded.mission, loaded.root),
-        half_cell.cable_m,
-        half_cell.min_force_n,
+        cable_m,
+        min_force_n,
         loaded.platform.battery.energy_wh,
     )
+
+
+def _probe_limits(platform: PlatformBase) -> tuple[float, float]:
+    """Length of the probe's cable, m, and the least force of a reading, N; of no probe none."""
+    probe = platform.find(HalfCellModel)
+    return (probe.cable_m, probe.min_force_n) if probe else (math.inf, 0.0)
 
 
 def _check_metrics(loaded: Loaded) -> None:

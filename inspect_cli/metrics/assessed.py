@@ -29,14 +29,18 @@ AssessAll = Callable[[Sequence[PointResult]], "tuple[Assessed, ...]"]
 
 
 def assess_points(
-    points: Sequence[PointResult], mission: Mission, probe: HalfCellModel, cells: PlannedCells
+    points: Sequence[PointResult],
+    mission: Mission,
+    probe: HalfCellModel | None,
+    cells: PlannedCells,
 ) -> tuple[Assessed, ...]:
     """The findings of each surface that has points, in the order in which it first appears.
 
-    Points that lie on no known surface belong to none. What a point stands for is the plan's cell.
+    ``probe`` took the readings; without one there are none to assess. Points that lie on no known
+    surface belong to none. What a point stands for is the plan's cell.
     """
     surfaces = dict.fromkeys(p.surface for p in points if p.surface and p.uv_m is not None)
-    if not surfaces:
+    if not surfaces or probe is None:
         return ()
     from inspect_cli.assessment.assess import assess
     from inspect_cli.assessment.readings import readings_of
@@ -52,7 +56,7 @@ def assess_points(
 
 def assessor(mission: Mission, platform: PlatformBase, targets: Iterable[Target]) -> AssessAll:
     """What assesses all points of a survey, whose flights go to these targets."""
-    probe, cells = platform.sensors.half_cell, planned_cells(targets)
+    probe, cells = platform.find(HalfCellModel), planned_cells(targets)
     return partial(assess_points, mission=mission, probe=probe, cells=cells)
 
 

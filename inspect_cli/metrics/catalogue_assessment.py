@@ -21,6 +21,7 @@ from inspect_cli.metrics.spec import MetricSpec
 from inspect_cli.records import Reading
 from inspect_cli.schema.assessment import SurfaceAssessment
 from inspect_cli.schema.result import Metric
+from inspect_cli.schema.vehicle import HalfCellModel
 from inspect_cli.spatial.arrays import Vector
 
 if TYPE_CHECKING:
@@ -130,7 +131,7 @@ def _function(finding: Finding) -> Callable[[Flight], float]:
     def value(flight: Flight) -> float:
         _ = flight.read_targets  # without them there is nothing to assess
         points = point_results(flight)
-        probe = flight.platform.sensors.half_cell
+        probe = flight.platform.find(HalfCellModel)
         assessed = assess_points(points, flight.mission, probe, planned_cells(flight.plan.targets))
         if not assessed:
             raise NotMeasured("no point to read lies on a known surface")

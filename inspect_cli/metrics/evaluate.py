@@ -23,6 +23,7 @@ from inspect_cli.metrics.truth_scoring import scoring_of
 from inspect_cli.records import Reading
 from inspect_cli.schema.result import Metric, PointResult, Result
 from inspect_cli.schema.scoring import Scoring
+from inspect_cli.schema.vehicle import HalfCellModel
 
 if TYPE_CHECKING:
     from inspect_cli.assessment.assess import Assessed
@@ -72,7 +73,7 @@ def _assessed(flight: Flight, points: Sequence[PointResult]) -> tuple[Assessed, 
     """The findings of every surface; none of a log that has no readings."""
     if flight.log.rows(Reading) is None:
         return ()
-    probe = flight.platform.sensors.half_cell
+    probe = flight.platform.find(HalfCellModel)
     return assess_points(points, flight.mission, probe, planned_cells(flight.plan.targets))
 
 

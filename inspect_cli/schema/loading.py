@@ -29,6 +29,7 @@ from inspect_cli.schema.strict_yaml import read_yaml
 from inspect_cli.schema.survey import SurveySettings
 from inspect_cli.schema.truth import TruthModel
 from inspect_cli.schema.vehicle import PLATFORM_KINDS, PlatformBase
+from inspect_cli.schema.vehicle.outdated import outdated_entries
 
 MAX_EXTENDS = 5
 
@@ -101,7 +102,9 @@ def load_platform(path: Path) -> PlatformBase:
         found = shown(kind.value)
         hint = suggest(found, list(PLATFORM_KINDS))
         raise SchemaError(Problem(f"no such kind of platform: {found}", kind.at("kind"), hint))
-    problems: list[Problem] = []
+    problems = outdated_entries(node)
+    if problems:
+        raise SchemaError(sorted(problems, key=_place))
     model = _validated(PLATFORM_KINDS[kind.value], node, problems)
     if model is None:
         raise SchemaError(sorted(problems, key=_place))

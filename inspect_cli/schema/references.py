@@ -10,6 +10,7 @@ from inspect_cli.errors import Problem
 from inspect_cli.schema.campaign import inside, is_file
 from inspect_cli.schema.explain import shown, suggest
 from inspect_cli.schema.nodes import Node, join, matches, replaced
+from inspect_cli.schema.specimens import SPECIMENS
 from inspect_cli.schema.tasks import TASK_KINDS
 
 FILES = (
@@ -17,8 +18,7 @@ FILES = (
     "structure.*.surface.mesh",
     *(f"tasks.*.{name}.{key}" for name, kind in TASK_KINDS.items() for key in kind.file_keys),
     "truth.structure.*.geometry.file",
-    "truth.structure.*.specimen.potential_mv",
-    "truth.structure.*.specimen.resistivity_kohm_cm",
+    *(f"truth.structure.*.specimen.{key}" for model in SPECIMENS.values() for key in model.files),
 )
 """Where a mission names files; their paths are relative to the file that they stand in."""
 

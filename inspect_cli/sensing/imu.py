@@ -13,12 +13,13 @@ from __future__ import annotations
 import numpy as np
 
 from inspect_cli.compiled import kernel
-from inspect_cli.records import Imu, State
+from inspect_cli.records import Imu
 from inspect_cli.schema.vehicle import ImuModel
-from inspect_cli.sensing.instrument import Noise
+from inspect_cli.sensing.instrument import Noise, Surroundings
 from inspect_cli.spatial.arrays import Vector
 from inspect_cli.spatial.constants import GRAVITY_MPS2
 from inspect_cli.spatial.rotations import rotate_back
+from inspect_cli.truth.snapshot import Truth
 
 
 @kernel
@@ -50,9 +51,9 @@ def measure_motion(
 class ImuSensor:
     """Specific force and angular rate of the body."""
 
-    def __init__(self, model: ImuModel, rate_hz: int, rng: np.random.Generator) -> None:
+    def __init__(self, model: ImuModel, rng: np.random.Generator) -> None:
         self.measurement = Imu.create()
-        root = np.sqrt(rate_hz)
+        root = np.sqrt(model.rate_hz)
         self._sd = np.array(
             [
                 model.accel_noise * root,
@@ -65,9 +66,9 @@ class ImuSensor:
         self._bias = np.repeat(initial, 3) * rng.standard_normal(6)
         self._noise = Noise(rng, 12)
 
-    def sample(self, state: State) -> None:
+    def sample(self, truth: Truth) -> Imu:
         """Measure now."""
-        measurement = self.measurement
+        state, measurement = truth.state, self.measurement
         measurement.t_s = state.t_s
         measure_motion(
             state.q_WB,
@@ -79,3 +80,9 @@ class ImuSensor:
             measurement.f_B,
             measurement.w_B,
         )
+        return measurement
+
+
+def imu_sensor(model: ImuModel, around: Surroundings) -> ImuSensor:
+    """The inertial unit of a flight."""
+    return ImuSensor(model, around.rng)

@@ -28,11 +28,11 @@ from __future__ import annotations
 import numpy as np
 
 from inspect_cli.compiled import kernel
-from inspect_cli.records import Odometry, State
+from inspect_cli.records import Odometry
 from inspect_cli.schema.base import Triple
-from inspect_cli.schema.positioning import OdometryModel
-from inspect_cli.sensing.instrument import Noise
-from inspect_cli.sensing.pose import measure_pose
+from inspect_cli.schema.vehicle import OdometryModel
+from inspect_cli.sensing.instrument import Noise, Surroundings
+from inspect_cli.sensing.pose_tracker import measure_pose
 from inspect_cli.spatial.arrays import Vector
 from inspect_cli.spatial.rotations import (
     quaternion_conjugate,
@@ -41,6 +41,7 @@ from inspect_cli.spatial.rotations import (
     quaternion_multiply,
     rotate,
 )
+from inspect_cli.truth.snapshot import Truth
 
 
 @kernel
@@ -98,8 +99,9 @@ class OdometrySensor:
         self._sampled_s = 0.0
         self._started = False
 
-    def sample(self, state: State) -> None:
+    def sample(self, truth: Truth) -> Odometry:
         """Measure now."""
+        state = truth.state
         p, q = state.p_WB, state.q_WB
         if not self._started:
             self._believed[:3] = self._last[:3] = p
@@ -123,3 +125,9 @@ class OdometrySensor:
             measurement.p_WB,
             measurement.q_WB,
         )
+        return measurement
+
+
+def odometry_sensor(model: OdometryModel, around: Surroundings) -> OdometrySensor:
+    """The odometry of a flight, with the steady drift that the truth states."""
+    return OdometrySensor(model, around.rng, around.truth.platform.odometry_drift_mps)

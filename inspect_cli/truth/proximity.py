@@ -21,7 +21,7 @@ import numpy as np
 
 from inspect_cli.compiled import kernel
 from inspect_cli.schema.truth import ProximityEffects
-from inspect_cli.spatial.arrays import Indices, Matrix, Points, Structured
+from inspect_cli.spatial.arrays import Indices, Matrix, Points, Structured, Vector
 from inspect_cli.spatial.primitives import patch_distance, raycast
 from inspect_cli.truth.relief import relief_foot
 from inspect_cli.truth.relief_rays import cast_on_reliefs
@@ -62,18 +62,19 @@ def set_thrust_factors(
     site_xpos: Points,
     site_xmat: Points,
     hubs: Indices,
-    radius_m: float,
+    rotors: Indices,
+    radii_m: Vector,
     ground: bool,
     ceiling: bool,
     wall: bool,
     gains: Matrix,
 ) -> None:
-    """Write the factor of each hub into the first column of ``gains``.
+    """Write the factor of each hub into the first column of ``gains``, in its rotor's row.
 
-    ``hubs`` (n,) are the sites of the rotors, in MuJoCo's arrays of positions and rotations; a
-    rotor's thrust is along its site's z. The first of ``surfaces`` is the ground, no wall. ``near``
-    (n, 3) are distances from other things: along the thrust, against it and to the nearest, m;
-    NaN along a direction in which there is nothing.
+    ``hubs`` (n,) are the sites of the rotors, in MuJoCo's arrays of positions and rotations, and
+    ``rotors`` (n,) their actuators; a rotor's thrust is along its site's z. The first of
+    ``surfaces`` is the ground, no wall. ``near`` (n, 3) are distances from other things: along
+    the thrust, against it and to the nearest, m; NaN along a direction in which there is nothing.
     """
     directions = np.empty((2, 3))
     ranges = np.empty(2)
@@ -88,16 +89,16 @@ def set_thrust_factors(
                 ranges[k] = near[i, k]
         factor = 1.0
         if ceiling and not np.isnan(ranges[0]):
-            factor *= ceiling_factor(ranges[0], radius_m)
+            factor *= ceiling_factor(ranges[0], radii_m[i])
         if ground and not np.isnan(ranges[1]):
-            factor *= ground_factor(ranges[1], radius_m)
+            factor *= ground_factor(ranges[1], radii_m[i])
         if wall:
             nearest = min(near[i, 2], REACH_M)
             for j in range(1, surfaces.shape[0]):
                 nearest = min(nearest, abs(patch_distance(surfaces, j, hub_W)))
             if nearest < REACH_M:
-                factor *= wall_factor(nearest, radius_m)
-        gains[i, 0] = factor
+                factor *= wall_factor(nearest, radii_m[i])
+        gains[rotors[i], 0] = factor
 
 
 @kernel
@@ -127,24 +128,29 @@ def near_reliefs(
 
 
 class Proximity:
-    """The effect of the true surfaces and the ground on a vehicle's rotors."""
+    """The effect of the true surfaces and the ground on rotors of the radii (n,), m."""
 
-    def __init__(self, effects: ProximityEffects, solids: Solids, radius_m: float) -> None:
+    def __init__(self, effects: ProximityEffects, solids: Solids, radii_m: Vector) -> None:
         self._solids = on_the_ground(solids)
         self._effects = effects
-        self._radius_m = radius_m
-        self._near = np.zeros((0, 3))
+        self._radii_m = radii_m
+        self._near = np.tile([np.nan, np.nan, np.inf], (len(radii_m), 1))
 
     @property
     def any(self) -> bool:
         """Whether any effect is switched on."""
         return self._effects.ground or self._effects.ceiling or self._effects.wall
 
-    def update(self, site_xpos: Points, site_xmat: Points, hubs: Indices, gains: Matrix) -> None:
+    def update(
+        self,
+        site_xpos: Points,
+        site_xmat: Points,
+        hubs: Indices,
+        rotors: Indices,
+        gains: Matrix,
+    ) -> None:
         """Set each rotor's gain to its factor; see ``set_thrust_factors``."""
         effects, solids = self._effects, self._solids
-        if len(self._near) != len(hubs):
-            self._near = np.tile([np.nan, np.nan, np.inf], (len(hubs), 1))
         if len(solids.reliefs):
             near_reliefs(solids.reliefs, solids.nodes, site_xpos, site_xmat, hubs, self._near)
         set_thrust_factors(
@@ -153,7 +159,8 @@ class Proximity:
             site_xpos,
             site_xmat,
             hubs,
-            self._radius_m,
+            rotors,
+            self._radii_m,
             effects.ground,
             effects.ceiling,
             effects.wall,

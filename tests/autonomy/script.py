@@ -9,9 +9,10 @@ import numpy as np
 
 from inspect_cli.autonomy.executive import Executive
 from inspect_cli.autonomy.modes import Behaviour
-from inspect_cli.interfaces import DepthImage, DepthLaw, Posture
+from inspect_cli.interfaces import DepthLaw, Posture
 from inspect_cli.records import (
     Command,
+    DepthImage,
     Estimate,
     InvalidReason,
     Pose,

@@ -62,7 +62,7 @@ class FakeArm(FakeVehicle):
 
     @property
     def lengths(self):
-        return {"n_rotors": 4, "n_joints": 2, "n_arm": 2}
+        return {"n_rotors": 4, "n_joints": 2, "n_servos": 2, "n_arm": 2}
 
     def frame_pose(self, posture, frame):
         R_WB = quaternion_to_matrix(posture.q_WB)

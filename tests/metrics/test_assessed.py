@@ -20,6 +20,7 @@ from inspect_cli.records import Reading
 from inspect_cli.schema.base import Strict
 from inspect_cli.schema.mission import Mission
 from inspect_cli.schema.result import PointResult, Result
+from inspect_cli.schema.vehicle import HalfCellModel
 
 Model = TypeVar("Model", bound=Strict)
 READ_V = np.array([specimen(k)[0] + READING_ERROR_V * (-1) ** k for k in range(9)])
@@ -30,9 +31,13 @@ MODEST_MV = 5e-4
 
 
 def changed(model: Model, path: str, value: object) -> Model:
-    """A copy with another value at a path such as ``sensors.half_cell.electrode``."""
+    """A copy with another value at a path such as ``sensors.probe.electrode``."""
     name, _, rest = path.partition(".")
-    if rest:
+    if name == "sensors":
+        sensor, _, rest = rest.partition(".")
+        sensors = model.sensors
+        value = sensors | {sensor: changed(sensors[sensor], rest, value)}
+    elif rest:
         value = changed(getattr(model, name), rest, value)
     return model.model_copy(update={name: value})
 
@@ -118,7 +123,7 @@ def test_another_electrode_comes_back_to_the_scale_of_the_standard(
     if temperature_c is not None:
         at_temperature(flight, temperature_c)
     warm_v = 0.9e-3 * ((temperature_c or 22.2) - 22.2)
-    flight.platform = changed(flight.platform, "sensors.half_cell.electrode", "SCE")
+    flight.platform = changed(flight.platform, "sensors.probe.electrode", "SCE")
     flight.rows(Reading)["potential"] += 0.075 + warm_v
     result = evaluate(flight.log())
     evaluated_mv = 1e3 * (READ_V + warm_v)
@@ -221,7 +226,7 @@ def on_surfaces(names: Sequence[str]) -> tuple[tuple[PointResult, ...], Mission]
 
 def test_each_surface_is_assessed_by_itself() -> None:
     points, mission = on_surfaces(["b", "b", "a", "a", "a", "", "b", "b", "a"])
-    probe = nine_points().platform.sensors.half_cell
+    probe = nine_points().platform.sensor(HalfCellModel)
     assessed = assess_points(points, mission, probe, planned_cells(nine_points().plan.targets))
     assert [one.summary.surface for one in assessed] == ["b", "a"]
     assert [one.summary.valid for one in assessed] == [4, 4]
@@ -279,6 +284,6 @@ def test_the_library_is_not_loaded_before_there_is_something_to_assess() -> None
 
 def test_the_flight_presses_long_enough_for_its_rule() -> None:
     """What the expected uncertainties take for granted: a contact of more than stable_s."""
-    probe = nine_points().platform.sensors.half_cell
+    probe = nine_points().platform.sensor(HalfCellModel)
     assert (probe.stable_v, probe.stable_s, probe.wetting_s) == (0.005, 1.0, 0.4)
     assert probe.stable_s < PRESS_S

@@ -27,7 +27,7 @@ from inspect_cli.schema.mission import Mission
 from inspect_cli.schema.plan import PlannedSurface
 from inspect_cli.schema.result import PointResult
 from inspect_cli.schema.scoring import UNREAD, Scoring
-from inspect_cli.schema.vehicle import TiltRotorPlatform
+from inspect_cli.schema.vehicle import HalfCellModel, TiltRotorPlatform
 from inspect_cli.vehicles.tilt_rotor import TiltRotor
 
 STEP_M = 0.005
@@ -261,7 +261,7 @@ def test_a_coarse_grid_with_readings_beside_a_fine_one_without(
     points = [point(target.index, target.uv_m, "none") for target in read]
     cells = planned_cells(planned.targets)
     scored = score(points, [raster_of(disc(0.0, 0.0, 0.1))], cells)
-    probe = nine_points().platform.sensors.half_cell
+    probe = nine_points().platform.sensor(HalfCellModel)
     (found,) = assess_points(points, mission, probe, cells)
     assert found.summary.area_m2 == pytest.approx(0.375, rel=1e-9)
     assert scored.confusion().region_m2 == pytest.approx(0.375, rel=1e-9)

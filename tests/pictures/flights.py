@@ -18,7 +18,7 @@ from inspect_cli.schema.mission import Mission
 from inspect_cli.schema.plan import Leg, MarginModel, Plan, PlannedSurface, PostureModel, Target
 from inspect_cli.schema.result import PointResult, Result
 
-LENGTHS = {"n_rotors": 12, "n_joints": 6, "n_arm": 0}
+LENGTHS = {"n_rotors": 12, "n_joints": 6, "n_servos": 6, "n_arm": 0}
 TOOL_M = 0.6
 """The flights need not be exact: the tip is drawn where the model has it."""
 UP = (1.0, 0.0, 0.0, 0.0)

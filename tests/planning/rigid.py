@@ -43,7 +43,7 @@ class RigidVehicle:
 
     @property
     def lengths(self):
-        return {"n_rotors": 12, "n_joints": 6}
+        return {"n_rotors": 12, "n_joints": 6, "n_servos": 6}
 
     def frame_pose(self, posture, frame):
         assert frame == TOOL
@@ -104,7 +104,7 @@ class ArmVehicle:
 
     @property
     def lengths(self):
-        return {"n_rotors": 4, "n_joints": 1}
+        return {"n_rotors": 4, "n_joints": 1, "n_servos": 1}
 
     def angle(self, posture):
         return posture.joint_angle[0] if posture.joint_angle.size else np.radians(self.rest_deg)

@@ -31,7 +31,7 @@ def test_tool_frame_is_that_of_the_model(vehicle, model):
         data.qpos[:] = [*posture.p_WB, *posture.q_WB, *posture.joint_angle]
         mujoco.mj_kinematics(model, data)
         p_WT, R_WT = vehicle.capabilities.frame_pose(posture, "tool")
-        tip = model.site("tool_tip").id
+        tip = model.site("tool").id
         assert np.allclose(p_WT, data.site_xpos[tip], atol=1e-12)
         assert np.allclose(R_WT.ravel(), data.site_xmat[tip], atol=1e-12)
 

@@ -110,7 +110,7 @@ class Statics:
         data.qpos[:3], data.qpos[3:7] = posture.p_WB, posture.q_WB
         mujoco.mj_forward(model, data)
         pushed = np.zeros(model.nv)
-        tip, body = data.site("tool_tip").xpos, model.body("tool").id
+        tip, body = data.site("tool").xpos, model.body("tool").id
         mujoco.mj_applyFT(model, data, wrench_W[:3], wrench_W[3:], tip, body, pushed)
         needed = data.qfrc_bias[:6] - pushed[:6]
         R = data.body("core").xmat.reshape(3, 3)

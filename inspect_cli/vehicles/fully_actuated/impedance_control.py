@@ -20,7 +20,7 @@ from inspect_cli.estimation.wrench_observer import WrenchObserver
 from inspect_cli.interfaces import TOOL, Capabilities, at_origin
 from inspect_cli.records import Command, Estimate, Imu, Pose, Reference
 from inspect_cli.schema.positioning import Estimation
-from inspect_cli.schema.vehicle import PlatformBase
+from inspect_cli.schema.vehicle import ImpedancePlatform, ImuModel
 from inspect_cli.spatial.arrays import Vector
 
 
@@ -37,7 +37,7 @@ class ImpedanceControl:
 
     def __init__(
         self,
-        platform: PlatformBase,
+        platform: ImpedancePlatform,
         capabilities: Capabilities,
         body: RigidBody,
         allocation: Allocation,
@@ -46,8 +46,8 @@ class ImpedanceControl:
         rates, control = platform.rates, platform.control
         self.estimate = Estimate.create()
         self.command = Command.create(capabilities.lengths)
-        noise, pose_hz = platform.positioning(estimation)
-        self._filter = ErrorStateFilter(platform.sensors.imu, noise, rates.imu_hz, pose_hz)
+        imu, pose = platform.sensor(ImuModel), platform.pose_source(estimation)
+        self._filter = ErrorStateFilter(imu, pose, imu.rate_hz, pose.rate_hz)
         self._observer = WrenchObserver(
             body.mass_kg,
             body.inertia_B,

@@ -52,7 +52,7 @@ class TiltRotorCapabilities:
         self.tasks = tasks_with(BEHAVIOUR.modes)
         self._spheres_B = _collision_spheres_B(platform)
         n = len(platform.groups)
-        self.lengths: Lengths = {"n_rotors": 2 * n, "n_joints": n}
+        self.lengths: Lengths = {"n_rotors": 2 * n, "n_joints": n, "n_servos": n}
         self.max_speed_mps = platform.limits.speed_mps
         self.max_acceleration_mps2 = platform.limits.acceleration_mps2
         self.max_angular_rate_radps = platform.limits.angular_rate_radps

@@ -41,7 +41,7 @@ class CantedOctorotorCapabilities:
         self._platform = platform
         self._body = body
         self._allocation = FixedAllocation(platform.rotors)
-        self.lengths = {"n_rotors": N_ROTORS, "n_joints": 1, "n_arm": 1}
+        self.lengths = {"n_rotors": N_ROTORS, "n_joints": 1, "n_servos": 1, "n_arm": 1}
         self.max_speed_mps = platform.limits.speed_mps
         self.max_acceleration_mps2 = platform.limits.acceleration_mps2
         self.max_angular_rate_radps = platform.limits.angular_rate_radps

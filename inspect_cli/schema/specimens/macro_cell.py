@@ -12,6 +12,7 @@ from pydantic import Field, model_validator
 
 from inspect_cli.schema.base import Positive, Strict
 from inspect_cli.schema.geometry import CylinderShape, MeshShape, SphereShape, TrueShape
+from inspect_cli.schema.specimens.base import SpecimenModel
 
 MOST_NODES = 1_500_000
 """Of the surface times the layers in depth: beyond it a solution takes minutes."""
@@ -84,7 +85,7 @@ class MoistSpot(Strict):
     itself a spot that is smaller than the wall hardly moves the potential of passive steel."""
 
 
-class MacroCellSpecimen(Strict):
+class MacroCellSpecimen(SpecimenModel):
     """Active and passive steel in concrete, whose potential field is solved for."""
 
     model: Literal["macro_cell"]
@@ -98,8 +99,6 @@ class MacroCellSpecimen(Strict):
     """From the surface to the middle of the mat."""
     resistivity_ohm_m: Annotated[float, Field(ge=LEAST_OHM_M, le=MOST_OHM_M)] = 200.0
     """Of the sound concrete at 20 °C."""
-    temperature_c: Annotated[float, Field(ge=0, le=49)] = 22.2
-    """Of the concrete, within the range that ASTM C876 corrects."""
     bars: Bars = Bars()
     passive: Kinetics = Kinetics(
         rest_v=-0.12, current_apm2=2e-4, anodic_slope_vpdec=0.30, cathodic_slope_vpdec=0.16
@@ -154,6 +153,16 @@ class MacroCellSpecimen(Strict):
         refuse_too_many_nodes(self, self.size_m)
         return self
 
+    def refuse_unfit(self, shape: TrueShape, extent_m: tuple[float, float] | None = None) -> None:
+        """Raise ValueError where the concrete is too thick for the curve, or its sites or nodes do
+        not fit its extent.
+        """
+        refuse_thicker_than_round(self, shape)
+        size_m = self.size_m or (extent_m if isinstance(shape, MeshShape) else shape.size_m)
+        if size_m is not None:
+            refuse_sites_outside(self, size_m)
+            refuse_too_many_nodes(self, size_m)
+
 
 def refuse_sites_outside(specimen: MacroCellSpecimen, size_m: tuple[float, float]) -> None:
     """ValueError for a site whose middle is not within the extent ``size_m`` of the concrete."""
@@ -198,17 +207,3 @@ def refuse_thicker_than_round(specimen: MacroCellSpecimen, shape: TrueShape) -> 
             f"thickness_m {specimen.thickness_m:g} must be at most 0.9 times the "
             f"{shape.kind}'s radius_m {shape.radius_m:g}"
         )
-
-
-def refuse_unfit(
-    specimen: MacroCellSpecimen, shape: TrueShape, extent_m: tuple[float, float] | None = None
-) -> None:
-    """ValueError where the specimen cannot lie under a surface of this shape.
-
-    ``extent_m`` is the surface's extent along u and v, for a mesh, which does not state its own.
-    """
-    refuse_thicker_than_round(specimen, shape)
-    size_m = specimen.size_m or (extent_m if isinstance(shape, MeshShape) else shape.size_m)
-    if size_m is not None:
-        refuse_sites_outside(specimen, size_m)
-        refuse_too_many_nodes(specimen, size_m)

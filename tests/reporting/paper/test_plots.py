@@ -38,7 +38,7 @@ from inspect_cli.reporting.words.language import Language, language
 
 ENGLISH = language("en")
 COMMA = Language("en", ",", {})
-PLATFORM = Path(__file__).parents[2] / "platforms" / "tilt_rotor_hexarotor.yaml"
+PLATFORM = Path(__file__).parents[3] / "platforms" / "tilt_rotor_hexarotor.yaml"
 SVG = "{http://www.w3.org/2000/svg}"
 MM_PER_PT = 25.4 / 72.0
 

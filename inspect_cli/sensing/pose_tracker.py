@@ -8,15 +8,16 @@ from __future__ import annotations
 import numpy as np
 
 from inspect_cli.compiled import kernel
-from inspect_cli.records import Pose, State
-from inspect_cli.schema.positioning import PoseModel
-from inspect_cli.sensing.instrument import Noise
+from inspect_cli.records import Pose
+from inspect_cli.schema.vehicle import PoseTrackerModel
+from inspect_cli.sensing.instrument import Noise, Surroundings
 from inspect_cli.spatial.arrays import Vector
 from inspect_cli.spatial.rotations import (
     quaternion_exp,
     quaternion_multiply,
     quaternion_normalize,
 )
+from inspect_cli.truth.snapshot import Truth
 
 
 @kernel
@@ -36,14 +37,14 @@ def measure_pose(
 class PoseSensor:
     """Position and attitude of the body."""
 
-    def __init__(self, model: PoseModel, rng: np.random.Generator) -> None:
+    def __init__(self, model: PoseTrackerModel, rng: np.random.Generator) -> None:
         self.measurement = Pose.create()
         self._sd = np.array([model.position_noise_m, model.attitude_noise_rad])
         self._noise = Noise(rng, 6)
 
-    def sample(self, state: State) -> None:
+    def sample(self, truth: Truth) -> Pose:
         """Measure now."""
-        measurement = self.measurement
+        state, measurement = truth.state, self.measurement
         measurement.t_s = state.t_s
         measure_pose(
             state.p_WB,
@@ -53,3 +54,9 @@ class PoseSensor:
             measurement.p_WB,
             measurement.q_WB,
         )
+        return measurement
+
+
+def pose_tracker(model: PoseTrackerModel, around: Surroundings) -> PoseSensor:
+    """The tracker of a flight."""
+    return PoseSensor(model, around.rng)
