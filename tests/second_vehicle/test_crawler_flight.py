@@ -11,7 +11,7 @@ from pitching_crawler.mujoco_model import FOOT
 from scipy.spatial.transform import Rotation
 
 from inspect_cli.autonomy.modes import Order
-from inspect_cli.interfaces import TOOL, Posture
+from inspect_cli.interfaces import TOOL, FramePose, Posture
 from inspect_cli.vehicles import tilt_rotor
 from inspect_cli.vehicles.actuators import Drive, Rotor
 
@@ -60,7 +60,8 @@ def trimmed(flight: Flight) -> Posture:
     """The planned posture at the place that is touched."""
     able = flight.vehicle.capabilities
     load = np.array([-PUSH_N, 0.0, 0.0, 0.0, 0.0, 0.0])
-    goal = (flight.logged("nearing", "p_WT")[0], able.frame_pose(at(0.0, 0.0), TOOL)[1])
+    axes = able.frame_pose(at(0.0, 0.0), TOOL)[1]
+    goal = FramePose(flight.logged("nearing", "p_WT")[0], axes)
     return able.solve({TOOL: goal}, {TOOL: load}, at(0.0, 0.0))
 
 
