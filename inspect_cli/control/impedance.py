@@ -15,13 +15,14 @@ is where it enters. At rest in contact τ_e = R M̃ Rᵀ K̃ x̃.
 
 from __future__ import annotations
 
+import operator
 from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
 
-from inspect_cli.compiled import kernel
-from inspect_cli.records import Command, Estimate, Reference
+from inspect_cli.compiled import bound, kernel
+from inspect_cli.records import Command, Estimate, Record, Reference
 from inspect_cli.schema.vehicle import ControlModel, ImpedanceProfile
 from inspect_cli.spatial.arrays import Matrix, Structured, Vector
 from inspect_cli.spatial.constants import GRAVITY_MPS2
@@ -117,6 +118,12 @@ class Impedance:
             sum((share * one.damping for one, share in given), np.zeros(6)),
         )
 
+    def become(self, other: Impedance) -> None:
+        """Take the numbers of another, in place."""
+        self.shaping[...] = other.shaping
+        self.stiffness[:] = other.stiffness
+        self.damping[:] = other.damping
+
 
 def shaping_matrices(profile: ImpedanceProfile, R_BT: Matrix) -> Matrix:
     """R M̃⁻¹ Rᵀ − I of a profile, for force and torque; shape (2, 3, 3), in B."""
@@ -155,27 +162,37 @@ class ImpedanceController:
         self._tick = self._blend_ticks
         self._chosen = -1
         self._shares = self._shares_before = np.zeros(len(self._profiles))
+        self._now = Impedance(np.zeros((2, 3, 3)), np.zeros(6), np.zeros(6))
         self.turn_tool(R_BT)
         self.weight_B = np.zeros(3)
+        self._records: tuple[Record | None, ...] = (None, None, None)
 
     def turn_tool(self, R_BT: Matrix) -> None:
         """Follow an arm that turned its tool in B."""
         self._all = [Impedance.of(self._model, profile, R_BT) for profile in self._profiles]
-        self._now = Impedance.mixed(self._all, self._shares)
+        self._now.become(Impedance.mixed(self._all, self._shares))
 
     def update(self, estimate: Estimate, reference: Reference, command: Command) -> None:
         """Write ``command.wrench_B``."""
-        body = self._body
         self._choose(int(reference.views["impedance"][0]))
-        impedance_wrench(
+        given = (estimate, reference, command)
+        if not all(map(operator.is_, given, self._records)):
+            self._bind(*given)
+        self._law()
+
+    def _bind(self, estimate: Estimate, reference: Reference, command: Command) -> None:
+        body, now = self._body, self._now
+        self._records = (estimate, reference, command)
+        self._law = bound(
+            impedance_wrench,
             estimate.array,
             reference.array,
             body.mass_kg,
             body.inertia_B,
             body.com_B,
-            self._now.shaping,
-            self._now.stiffness,
-            self._now.damping,
+            now.shaping,
+            now.stiffness,
+            now.damping,
             command.array,
             self.weight_B,
         )
@@ -195,7 +212,7 @@ class ImpedanceController:
         else:
             share = self._tick / self._blend_ticks
             self._shares = (1.0 - share) * self._shares_before + share * asked
-        self._now = Impedance.mixed(self._all, self._shares)
+        self._now.become(Impedance.mixed(self._all, self._shares))
 
 
 def steady_contact_force(

@@ -12,37 +12,39 @@ from __future__ import annotations
 
 import numpy as np
 
-from inspect_cli.compiled import kernel
+from inspect_cli.compiled import bound, kernel
 from inspect_cli.records import Imu, State
 from inspect_cli.schema.vehicle import ImuModel
 from inspect_cli.sensing.instrument import Noise
-from inspect_cli.spatial.arrays import Vector
+from inspect_cli.spatial.arrays import Matrix, Structured, Vector
 from inspect_cli.spatial.constants import GRAVITY_MPS2
 from inspect_cli.spatial.rotations import rotate_back
 
 
 @kernel
 def measure_motion(
-    q: Vector,
-    a_W: Vector,
-    w_B: Vector,
-    noise: Vector,
+    state: Structured,
+    noises: Matrix,
     sd: Vector,
     bias: Vector,
-    f_measured: Vector,
-    w_measured: Vector,
+    imu: Structured,
+    draw: int,
 ) -> None:
-    """Write specific force and rate, and let the biases walk.
+    """Write specific force and rate of a State (1,) into an Imu (1,), and let the biases walk.
 
-    ``noise`` (12,) standard normal for f, w, b_f, b_w; ``sd`` (4,) their standard deviations per
-    sample; ``bias`` (6,) = (b_f, b_w), changed in place.
+    ``noises[draw]`` (12,) is standard normal for f, w, b_f, b_w; ``sd`` (4,) are their standard
+    deviations per sample; ``bias`` (6,) = (b_f, b_w) is changed in place.
     """
-    push = a_W.copy()
-    push[2] += GRAVITY_MPS2
-    f_B = rotate_back(q, push)
+    now, measured, noise = state[0], imu[0], noises[draw]
+    push = np.empty(3)
     for i in range(3):
-        f_measured[i] = f_B[i] + bias[i] + sd[0] * noise[i]
-        w_measured[i] = w_B[i] + bias[3 + i] + sd[1] * noise[3 + i]
+        push[i] = now["a_WB_W"][i]
+    push[2] += GRAVITY_MPS2
+    f_B = rotate_back(now["q_WB"], push)
+    measured["t_s"] = now["t_s"]
+    for i in range(3):
+        measured["f_B"][i] = f_B[i] + bias[i] + sd[0] * noise[i]
+        measured["w_B"][i] = now["w_WB_B"][i] + bias[3 + i] + sd[1] * noise[3 + i]
         bias[i] += sd[2] * noise[6 + i]
         bias[3 + i] += sd[3] * noise[9 + i]
 
@@ -64,18 +66,19 @@ class ImuSensor:
         initial = [model.accel_bias_initial_mps2, model.gyro_bias_initial_radps]
         self._bias = np.repeat(initial, 3) * rng.standard_normal(6)
         self._noise = Noise(rng, 12)
+        self._seen: State | None = None
 
     def sample(self, state: State) -> None:
         """Measure now."""
-        measurement = self.measurement
-        measurement.t_s = state.t_s
-        measure_motion(
-            state.q_WB,
-            state.a_WB_W,
-            state.w_WB_B,
-            self._noise.draw(),
-            self._sd,
-            self._bias,
-            measurement.f_B,
-            measurement.w_B,
-        )
+        if state is not self._seen:
+            self._seen = state
+            self._measure = bound(
+                measure_motion,
+                state.array,
+                self._noise.block,
+                self._sd,
+                self._bias,
+                self.measurement.array,
+                then=(0,),
+            )
+        self._measure(self._noise.next_row())

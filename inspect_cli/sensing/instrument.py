@@ -6,25 +6,33 @@ from typing import Final
 
 import numpy as np
 
-from inspect_cli.spatial.arrays import Vector
+from inspect_cli.spatial.arrays import Matrix, Vector
 
 BLOCK: Final = 256
 """Samples drawn at once; one call of the generator per sample would cost more than the sample."""
 
 
 class Noise:
-    """A stream of independent standard normal vectors (``width``,) from one generator."""
+    """A stream of independent standard normal vectors (``width``,) from one generator.
+
+    ``block`` (BLOCK, width) holds those that were drawn last.
+    """
 
     def __init__(self, rng: np.random.Generator, width: int) -> None:
         self._rng = rng
-        self._block = np.empty((BLOCK, width))
+        self.block: Matrix = np.empty((BLOCK, width))
         self._next = BLOCK
+
+    def next_row(self) -> int:
+        """The row of ``block`` with the next vector; it stays as it is until the next call."""
+        if self._next == BLOCK:
+            self._rng.standard_normal(out=self.block)
+            self._next = 0
+        row = self._next
+        self._next = row + 1
+        return row
 
     def draw(self) -> Vector:
         """The next vector: a view that stays as it is until the next call."""
-        if self._next == BLOCK:
-            self._rng.standard_normal(out=self._block)
-            self._next = 0
-        row: Vector = self._block[self._next]
-        self._next += 1
+        row: Vector = self.block[self.next_row()]
         return row

@@ -7,11 +7,11 @@ from __future__ import annotations
 
 import numpy as np
 
-from inspect_cli.compiled import kernel
+from inspect_cli.compiled import bound, kernel
 from inspect_cli.records import Pose, State
 from inspect_cli.schema.positioning import PoseModel
 from inspect_cli.sensing.instrument import Noise
-from inspect_cli.spatial.arrays import Vector
+from inspect_cli.spatial.arrays import Matrix, Structured, Vector
 from inspect_cli.spatial.rotations import (
     quaternion_exp,
     quaternion_multiply,
@@ -33,6 +33,14 @@ def measure_pose(
         q_measured[i] = measured[i]
 
 
+@kernel
+def track(state: Structured, noises: Matrix, sd: Vector, pose: Structured, draw: int) -> None:
+    """Write the measured pose of a State (1,) into a Pose (1,), with the noise ``noises[draw]``."""
+    now, measured = state[0], pose[0]
+    measured["t_s"] = now["t_s"]
+    measure_pose(now["p_WB"], now["q_WB"], noises[draw], sd, measured["p_WB"], measured["q_WB"])
+
+
 class PoseSensor:
     """Position and attitude of the body."""
 
@@ -40,16 +48,18 @@ class PoseSensor:
         self.measurement = Pose.create()
         self._sd = np.array([model.position_noise_m, model.attitude_noise_rad])
         self._noise = Noise(rng, 6)
+        self._seen: State | None = None
 
     def sample(self, state: State) -> None:
         """Measure now."""
-        measurement = self.measurement
-        measurement.t_s = state.t_s
-        measure_pose(
-            state.p_WB,
-            state.q_WB,
-            self._noise.draw(),
-            self._sd,
-            measurement.p_WB,
-            measurement.q_WB,
-        )
+        if state is not self._seen:
+            self._seen = state
+            self._track = bound(
+                track,
+                state.array,
+                self._noise.block,
+                self._sd,
+                self.measurement.array,
+                then=(0,),
+            )
+        self._track(self._noise.next_row())

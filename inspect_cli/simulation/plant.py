@@ -11,10 +11,11 @@ from __future__ import annotations
 import mujoco
 import numpy as np
 
-from inspect_cli.compiled import kernel
+from inspect_cli.compiled import bound, kernel
 from inspect_cli.interfaces import Posture
 from inspect_cli.records import Command, Lengths, State
 from inspect_cli.simulation.plates import Plates
+from inspect_cli.simulation.stepping import advance, refresh
 from inspect_cli.simulation.world import WALL_SENSOR
 from inspect_cli.spatial.arrays import Matrix, Structured, Vector
 from inspect_cli.spatial.rotations import cross, matrix_to_quaternion, rotate_back
@@ -137,15 +138,30 @@ class Plant:
         # The arrays below are views into MuJoCo's memory; they are looked up once.
         data = self.data
         self._tip_W, self._tip_axes = data.site_xpos[self._tip], data.site_xmat[self._tip]
-        self._sources = (data.qpos, data.qvel, data.qacc, data.qfrc_constraint)
         self._applied, self._activation = data.qfrc_applied, data.act
-        self._contact = data.sensordata
         self._motion = Motion(data.qpos[:3], data.qpos[3:7], data.qvel[:3], self._tip_W)
         self._tool = model.body("tool").id
         walls = [s for s in map(model.sensor, range(model.nsensor)) if WALL_SENSOR in s.name]
         self._walls = [data.sensordata[s.adr[0] : s.adr[0] + s.dim[0]] for s in walls]
         self._ctrl, self._dynprm = data.ctrl, model.actuator_dynprm
         self._warnings = data.warning.number
+        here = model._address, data._address
+        self._advance = bound(advance, *here, then=(1,))
+        self._refresh = bound(refresh, *here)
+        self._read = bound(
+            read_state,
+            data.qpos,
+            data.qvel,
+            data.qacc,
+            data.qfrc_constraint,
+            self._applied,
+            data.sensordata,
+            self._tip_W,
+            self._tip_axes,
+            self._activation,
+            self.state.array,
+        )
+        self._taken: Command | None = None
 
     def place(self, posture: Posture) -> None:
         """Put the vehicle somewhere at rest."""
@@ -161,16 +177,8 @@ class Plant:
 
     def observe(self, t_s: float) -> State:
         """The true state now; kinematics are refreshed so that the tip does not lag a step."""
-        mujoco.mj_kinematics(self.model, self.data)
-        read_state(
-            *self._sources,
-            self._applied,
-            self._contact,
-            self._tip_W,
-            self._tip_axes,
-            self._activation,
-            self.state.array,
-        )
+        self._refresh()
+        self._read()
         self.state.t_s = t_s
         return self.state
 
@@ -185,16 +193,20 @@ class Plant:
 
     def apply(self, command: Command) -> None:
         """Take a command."""
-        set_controls(
-            command.views["rotor_thrust"],
-            command.views["joint_angle"],
-            self._activation,
-            self._actuators.time_up_s,
-            self._actuators.time_down_s,
-            self._max_turn,
-            self._ctrl,
-            self._dynprm,
-        )
+        if command is not self._taken:
+            self._taken = command
+            self._set_controls = bound(
+                set_controls,
+                command.views["rotor_thrust"],
+                command.views["joint_angle"],
+                self._activation,
+                self._actuators.time_up_s,
+                self._actuators.time_down_s,
+                self._max_turn,
+                self._ctrl,
+                self._dynprm,
+            )
+        self._set_controls()
 
     def disturb(self, t_s: float) -> None:
         """Set the disturbances of this moment."""
@@ -225,15 +237,15 @@ class Plant:
     def step(self, steps: int) -> None:
         """Let time pass; plates are placed at the control rate or more often."""
         if not self._plates.any:
-            mujoco.mj_step(self.model, self.data, steps)
+            self._advance(steps)
             return
         done = 0
         while done < steps:
             if done:
-                mujoco.mj_kinematics(self.model, self.data)  # as ``observe`` left them at first
+                self._refresh()  # as ``observe`` left them at first
             self._plates.follow()
             stretch = min(self._steps_per_placing, steps - done)
-            mujoco.mj_step(self.model, self.data, stretch)
+            self._advance(stretch)
             done += stretch
 
     @property

@@ -21,7 +21,7 @@ from __future__ import annotations
 import mujoco
 import numpy as np
 
-from inspect_cli.compiled import kernel
+from inspect_cli.compiled import bound, kernel
 from inspect_cli.simulation.surface_geoms import WALL_THICKNESS_M, plate_name
 from inspect_cli.spatial.arrays import Indices, Mask, Points, Vector
 from inspect_cli.truth.solids import Solids, foot_on, normal_on, point_on
@@ -77,14 +77,21 @@ class Plates:
         named = {model.body(b).name: int(model.body_mocapid[b]) for b in range(model.nbody)}
         count = len(solids.primitives) + len(solids.reliefs)
         plated = [i for i in range(count) if plate_name(i) in named]
-        self._solids = solids
-        self._surfaces = np.array(plated, dtype=np.int32)
-        self._slots = np.array([named[plate_name(i)] for i in plated], dtype=np.int32)
-        self._tip_W = data.geom_xpos[model.geom("tip").id]
-        self._pos, self._quat = data.mocap_pos, data.mocap_quat
         self._engaged = np.zeros(len(plated), np.bool_)
         self.any = bool(plated)
         """Whether there is anything to place."""
+        if self.any:
+            self._place = bound(
+                place_plates,
+                solids,
+                np.array(plated, dtype=np.int32),
+                np.array([named[plate_name(i)] for i in plated], dtype=np.int32),
+                data.geom_xpos[model.geom("tip").id],
+                WALL_THICKNESS_M,
+                self._engaged,
+                data.mocap_pos,
+                data.mocap_quat,
+            )
 
     def reset(self) -> None:
         """Forget what was touched."""
@@ -92,13 +99,5 @@ class Plates:
 
     def follow(self) -> None:
         """Place every plate below the tip, whose kinematics are up to date."""
-        place_plates(
-            self._solids,
-            self._surfaces,
-            self._slots,
-            self._tip_W,
-            WALL_THICKNESS_M,
-            self._engaged,
-            self._pos,
-            self._quat,
-        )
+        if self.any:
+            self._place()
