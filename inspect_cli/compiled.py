@@ -18,6 +18,7 @@ import numba
 
 F = TypeVar("F", bound=Callable[..., Any])
 Number = float | int | bool
+_NUMBA: Any = numba  # much of it has no annotations
 
 
 def kernel(function: F) -> F:
@@ -35,7 +36,7 @@ def bound(
     what lives as long as the caller and is changed in place: arrays, and numbers that stay.
     A call converts what it adds to the types of the examples.
     """
-    if isinstance(function, numba.core.dispatcher.Dispatcher):
-        types = tuple(numba.typeof(value) for value in (*arguments, *then))
+    if isinstance(function, _NUMBA.core.dispatcher.Dispatcher):
+        types = tuple(_NUMBA.typeof(value) for value in (*arguments, *then))
         function = function.compile(types)
     return partial(function, *arguments)

@@ -106,7 +106,11 @@ class ErrorStateFilter:
         if imu is not self._imu or estimate is not self._estimate:
             self._imu, self._estimate = imu, estimate
             self._to_sample = bound(
-                advance_to_sample, imu.array, *self._belief, *self._sampling, estimate.array
+                advance_to_sample,
+                *imu.views.values(),
+                *self._belief,
+                *self._sampling,
+                estimate.array,
             )
         self._to_sample()
 
@@ -116,7 +120,7 @@ class ErrorStateFilter:
             self._pose, self._corrected = pose, estimate
             self._to_pose = bound(
                 correct_to_pose,
-                pose.array,
+                *pose.views.values(),
                 *self._belief,
                 *self._sampling,
                 self._walks,

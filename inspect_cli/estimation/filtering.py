@@ -50,7 +50,9 @@ def advance(
 
 @kernel
 def advance_to_sample(
-    imu: Structured,
+    t_measured: Vector,
+    f: Vector,
+    w: Vector,
     p: Vector,
     v: Vector,
     q: Vector,
@@ -62,15 +64,14 @@ def advance_to_sample(
     imu_hz: float,
     estimate: Structured,
 ) -> None:
-    """Advance to an Imu (1,) with the mean of it and the last; ignore one that is not finite."""
-    row = imu[0]
-    t = row["t_s"]
+    """Advance to a sample (f, w) with the mean of it and the last; ignore what is not finite."""
+    t = t_measured[0]
     dt = t - times[0]
     share = 1.0
     if dt > 0.0 and not np.isnan(times[1]):
         share = 0.5 * (t - times[1]) / dt
     mean = np.empty(6)
-    if not take_sample(held, mean, row["f_B"], row["w_B"], share):
+    if not take_sample(held, mean, f, w, share):
         return
     times[1] = t
     if dt > 0.0:
@@ -80,7 +81,9 @@ def advance_to_sample(
 
 @kernel
 def correct_to_pose(
-    pose: Structured,
+    t_measured: Vector,
+    p_measured: Vector,
+    q_measured: Vector,
     p: Vector,
     v: Vector,
     q: Vector,
@@ -95,13 +98,12 @@ def correct_to_pose(
     gate: float,
     estimate: Structured,
 ) -> float:
-    """Advance to a Pose (1,) and correct with it; return the innovation's χ².
+    """Advance to a measured pose and correct with it; return the innovation's χ².
 
     ``walks`` (3,) are those of ``frame_drifts``, ``variance`` (6,) and ``gate`` those of
     ``correct_pose``.
     """
-    row = pose[0]
-    t = row["t_s"]
+    t = t_measured[0]
     dt = t - times[0]
     if dt > 0.0 and not np.isnan(times[1]):
         advance(p, v, q, bias, P, held, times, noise, imu_hz, dt)
@@ -112,7 +114,7 @@ def correct_to_pose(
         for i in range(3):
             rate[i] = held[3 + i] - bias[3 + i]
         frame_drifts(P, q, v, rate, walks, since)
-    innovation = pose_innovation(p, q, row["p_WB"], row["q_WB"])
+    innovation = pose_innovation(p, q, p_measured, q_measured)
     chi2 = correct_pose(p, v, q, bias, P, innovation, variance, gate)
     publish(p, v, q, bias, P, held, times, estimate)
     return chi2

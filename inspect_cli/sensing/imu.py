@@ -16,35 +16,40 @@ from inspect_cli.compiled import bound, kernel
 from inspect_cli.records import Imu, State
 from inspect_cli.schema.vehicle import ImuModel
 from inspect_cli.sensing.instrument import Noise
-from inspect_cli.spatial.arrays import Matrix, Structured, Vector
+from inspect_cli.spatial.arrays import Matrix, Vector
 from inspect_cli.spatial.constants import GRAVITY_MPS2
 from inspect_cli.spatial.rotations import rotate_back
 
 
 @kernel
 def measure_motion(
-    state: Structured,
+    t: Vector,
+    q: Vector,
+    a_W: Vector,
+    w_B: Vector,
     noises: Matrix,
     sd: Vector,
     bias: Vector,
-    imu: Structured,
+    t_measured: Vector,
+    f_measured: Vector,
+    w_measured: Vector,
     draw: int,
 ) -> None:
-    """Write specific force and rate of a State (1,) into an Imu (1,), and let the biases walk.
+    """Write the time (1,), specific force and rate, and let the biases walk.
 
     ``noises[draw]`` (12,) is standard normal for f, w, b_f, b_w; ``sd`` (4,) are their standard
     deviations per sample; ``bias`` (6,) = (b_f, b_w) is changed in place.
     """
-    now, measured, noise = state[0], imu[0], noises[draw]
+    noise = noises[draw]
     push = np.empty(3)
     for i in range(3):
-        push[i] = now["a_WB_W"][i]
+        push[i] = a_W[i]
     push[2] += GRAVITY_MPS2
-    f_B = rotate_back(now["q_WB"], push)
-    measured["t_s"] = now["t_s"]
+    f_B = rotate_back(q, push)
+    t_measured[0] = t[0]
     for i in range(3):
-        measured["f_B"][i] = f_B[i] + bias[i] + sd[0] * noise[i]
-        measured["w_B"][i] = now["w_WB_B"][i] + bias[3 + i] + sd[1] * noise[3 + i]
+        f_measured[i] = f_B[i] + bias[i] + sd[0] * noise[i]
+        w_measured[i] = w_B[i] + bias[3 + i] + sd[1] * noise[3 + i]
         bias[i] += sd[2] * noise[6 + i]
         bias[3 + i] += sd[3] * noise[9 + i]
 
@@ -72,13 +77,19 @@ class ImuSensor:
         """Measure now."""
         if state is not self._seen:
             self._seen = state
+            true, measured = state.views, self.measurement.views
             self._measure = bound(
                 measure_motion,
-                state.array,
+                true["t_s"],
+                true["q_WB"],
+                true["a_WB_W"],
+                true["w_WB_B"],
                 self._noise.block,
                 self._sd,
                 self._bias,
-                self.measurement.array,
+                measured["t_s"],
+                measured["f_B"],
+                measured["w_B"],
                 then=(0,),
             )
         self._measure(self._noise.next_row())

@@ -33,7 +33,7 @@ from inspect_cli.schema.base import Triple
 from inspect_cli.schema.positioning import OdometryModel
 from inspect_cli.sensing.instrument import Noise
 from inspect_cli.sensing.pose import measure_pose
-from inspect_cli.spatial.arrays import Matrix, Structured, Vector
+from inspect_cli.spatial.arrays import Matrix, Vector
 from inspect_cli.spatial.rotations import (
     quaternion_conjugate,
     quaternion_exp,
@@ -73,7 +73,9 @@ def drift(
 
 @kernel
 def dead_reckon(
-    state: Structured,
+    t: Vector,
+    p: Vector,
+    q: Vector,
     noises: Matrix,
     steady: Vector,
     tilt: Vector,
@@ -82,23 +84,24 @@ def dead_reckon(
     scale: float,
     believed: Vector,
     white: Vector,
-    odometry: Structured,
+    t_measured: Vector,
+    p_measured: Vector,
+    q_measured: Vector,
     draw: int,
 ) -> None:
-    """Write the pose of a State (1,) into an Odometry (1,), with the noise ``noises[draw]`` (10,).
+    """Write time (1,) and pose, measured with the noise ``noises[draw]`` (10,).
 
     ``steady`` (3,) m/s is u in W, ``tilt`` (4,) the misalignment as a quaternion, ``white`` (2,)
-    = (σ_w, σ_θ). The odometry's time before the call is that of the last sample.
+    = (σ_w, σ_θ). ``t_measured`` before the call is the time of the last sample.
     """
-    now, measured, noise = state[0], odometry[0], noises[draw]
-    since = now["t_s"] - measured["t_s"]
+    noise = noises[draw]
+    since = t[0] - t_measured[0]
     for i in range(3):
         believed[i] += steady[i] * since
-    drift(now["p_WB"], now["q_WB"], last, walks, scale, noise[0:4], believed)
-    q = quaternion_multiply(yaw_turn(believed[3]), quaternion_multiply(now["q_WB"], tilt))
-    measured["t_s"] = now["t_s"]
-    p_measured, q_measured = measured["p_WB"], measured["q_WB"]
-    measure_pose(believed[0:3], q, noise[4:10], white, p_measured, q_measured)
+    drift(p, q, last, walks, scale, noise[0:4], believed)
+    turned = quaternion_multiply(yaw_turn(believed[3]), quaternion_multiply(q, tilt))
+    t_measured[0] = t[0]
+    measure_pose(believed[0:3], turned, noise[4:10], white, p_measured, q_measured)
 
 
 class OdometrySensor:
@@ -137,9 +140,12 @@ class OdometrySensor:
             self._started = True
         if state is not self._state:
             self._state = state
+            true, measured = state.views, self.measurement.views
             self._measure = bound(
                 dead_reckon,
-                state.array,
+                true["t_s"],
+                true["p_WB"],
+                true["q_WB"],
                 self._noise.block,
                 self._drift_mps,
                 self._tilt,
@@ -148,7 +154,9 @@ class OdometrySensor:
                 self._scale,
                 self._believed,
                 self._white,
-                self.measurement.array,
+                measured["t_s"],
+                measured["p_WB"],
+                measured["q_WB"],
                 then=(0,),
             )
         self._measure(self._noise.next_row())

@@ -11,7 +11,7 @@ from inspect_cli.compiled import bound, kernel
 from inspect_cli.records import Pose, State
 from inspect_cli.schema.positioning import PoseModel
 from inspect_cli.sensing.instrument import Noise
-from inspect_cli.spatial.arrays import Matrix, Structured, Vector
+from inspect_cli.spatial.arrays import Matrix, Vector
 from inspect_cli.spatial.rotations import (
     quaternion_exp,
     quaternion_multiply,
@@ -34,11 +34,20 @@ def measure_pose(
 
 
 @kernel
-def track(state: Structured, noises: Matrix, sd: Vector, pose: Structured, draw: int) -> None:
-    """Write the measured pose of a State (1,) into a Pose (1,), with the noise ``noises[draw]``."""
-    now, measured = state[0], pose[0]
-    measured["t_s"] = now["t_s"]
-    measure_pose(now["p_WB"], now["q_WB"], noises[draw], sd, measured["p_WB"], measured["q_WB"])
+def track(
+    t: Vector,
+    p: Vector,
+    q: Vector,
+    noises: Matrix,
+    sd: Vector,
+    t_measured: Vector,
+    p_measured: Vector,
+    q_measured: Vector,
+    draw: int,
+) -> None:
+    """Write time (1,) and pose, measured with the noise ``noises[draw]``."""
+    t_measured[0] = t[0]
+    measure_pose(p, q, noises[draw], sd, p_measured, q_measured)
 
 
 class PoseSensor:
@@ -54,12 +63,17 @@ class PoseSensor:
         """Measure now."""
         if state is not self._seen:
             self._seen = state
+            true, measured = state.views, self.measurement.views
             self._track = bound(
                 track,
-                state.array,
+                true["t_s"],
+                true["p_WB"],
+                true["q_WB"],
                 self._noise.block,
                 self._sd,
-                self.measurement.array,
+                measured["t_s"],
+                measured["p_WB"],
+                measured["q_WB"],
                 then=(0,),
             )
         self._track(self._noise.next_row())

@@ -251,7 +251,7 @@ class Plant:
     @property
     def diverged(self) -> str:
         """Why the physics cannot be trusted any more; empty while it can."""
-        if not self._warnings.any():
+        if not any(self._warnings.tolist()):
             return ""
         numbers = np.flatnonzero(self._warnings)
         return ", ".join(mujoco.mjtWarning(int(number)).name for number in numbers)

@@ -19,10 +19,11 @@ from typing import Any
 import llvmlite.binding
 import mujoco
 import numba
-from numba.types import ExternalFunction, int64, void
 
 from inspect_cli.compiled import kernel
 from inspect_cli.errors import EnvironmentFault
+
+_NUMBA: Any = numba  # much of it has no annotations
 
 
 def _library() -> str:
@@ -39,14 +40,17 @@ def _library() -> str:
 
 def _function(name: str) -> Callable[[int, int], None]:
     """A function of (model, data) of MuJoCo's library, for kernels."""
-    found: Any
-    if numba.config.DISABLE_JIT:
-        found = getattr(ctypes.CDLL(_library()), name)
-        found.argtypes, found.restype = (ctypes.c_void_p, ctypes.c_void_p), None
-    else:
-        llvmlite.binding.load_library_permanently(_library())
-        found = ExternalFunction(name, void(int64, int64))
-    return found
+    if _NUMBA.config.DISABLE_JIT:
+        plain: Callable[[int, int], None] = ctypes.CFUNCTYPE(
+            None, ctypes.c_void_p, ctypes.c_void_p
+        )((name, ctypes.CDLL(_library())))
+        return plain
+    llvmlite.binding.load_library_permanently(_library())
+    types = _NUMBA.types
+    compiled: Callable[[int, int], None] = types.ExternalFunction(
+        name, types.void(types.int64, types.int64)
+    )
+    return compiled
 
 
 mj_step = _function("mj_step")
