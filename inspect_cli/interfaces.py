@@ -6,12 +6,13 @@ an articulated arm and a perching manipulator are planned and flown by the same 
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Protocol
 
 import numpy as np
 
-from inspect_cli.records import Command, Estimate, Imu, Lengths, Pose, Record, Reference, State
+from inspect_cli.records import Command, Estimate, Lengths, Pose, Record, Reference, State
 from inspect_cli.spatial.arrays import Matrix, Points, Vector
 
 
@@ -106,26 +107,64 @@ class Capabilities(Protocol):
         ...
 
 
+@dataclass(frozen=True)
+class DepthImage:
+    """A sample of a depth camera.
+
+    ``points_D`` (rows · columns, 3) m, in the camera's frame D, NaN for pixels without a return;
+    the camera overwrites them with its next image.
+    """
+
+    t_s: float
+    points_D: Points
+
+
 class FlightStack(Protocol):
-    """Estimation and control of one vehicle. It never sees a State."""
+    """Estimation, guidance and control of one vehicle. It never sees a State."""
 
     estimate: Estimate
+    reference: Reference
+    """Where the vehicle shall be, of the last ``refer`` or ``control``."""
     command: Command
+    armed: bool
+    """Whether the rotors may turn; the executive decides."""
+
+    @property
+    def loops(self) -> Mapping[str, int]:
+        """Names and rates, Hz, of its loops beside ``control``; the flight loop calls ``run``."""
+        ...
 
     def start(self, pose: Pose) -> None:
         """Begin at rest at a measured pose."""
         ...
 
-    def on_imu(self, imu: Imu) -> None:
-        """Propagate the estimate with an inertial sample."""
+    def hear(self, sample: Record | DepthImage) -> Record | None:
+        """Take a sensor's sample.
+
+        Returns what the mission may count on because of it: the pose that corrected the estimate,
+        the surface that a depth image shows, the sample itself where the stack makes nothing of
+        it. None where it was refused.
+        """
         ...
 
-    def on_pose(self, pose: Pose) -> bool:
-        """Correct the estimate with a pose measurement; False when it was refused."""
+    def enter(self, t_s: float, mode: str, target: int | None) -> None:
+        """Take up the estimator and the controller of a mode, without a jump of the command."""
         ...
 
-    def control(self, reference: Reference, flying: bool) -> None:
-        """Write the command that follows the reference; motors idle when not ``flying``."""
+    def run(self, loop: str, t_s: float) -> None:
+        """One period of one of its ``loops``."""
+        ...
+
+    def refer(self, t_s: float) -> None:
+        """Write the ``reference`` of the instant."""
+        ...
+
+    def control(self, t_s: float) -> None:
+        """Write the ``command`` that follows the reference of the instant."""
+        ...
+
+    def believed(self, frame: str) -> tuple[Vector, Matrix]:
+        """(p, R) in W of a frame of the vehicle by the estimate: ``tool``, or a camera's name."""
         ...
 
 

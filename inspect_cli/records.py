@@ -229,25 +229,6 @@ class Probe(Record):
     force = scalar("N", "force on the probe by its load cell, pressing is positive")
 
 
-class Mode(IntEnum):
-    """What the mission executive is doing; kept in ``Reference.mode``."""
-
-    IDLE = 0
-    TAKEOFF = 1
-    TRANSIT = 2
-    HOLD = 3
-    """Hold a pose in free air for a time."""
-    APPROACH = 4
-    PRESS = 5
-    SLIDE = 6
-    """Move along the surface in contact."""
-    RETREAT = 7
-    LAND = 8
-    LANDED = 9
-    HOVER = 10
-    """Safe hover after an abort."""
-
-
 class InvalidReason(IntEnum):
     """Why a reading does not count; 0 means that it does."""
 
@@ -318,7 +299,7 @@ class Reference(Record):
     alpha_WB_B = vector(3, "rad/s²", "B", "angular acceleration, in the reference's B")
     p_WT = vector(3, "m", "W", "position of the tool's tip")
     arm_angle = vector("n_arm", "rad", "", "angles of the arm's joints")
-    mode = scalar("1", "mode of the mission executive, by number")
+    mode = scalar("1", "mode of the mission executive, by its number in modes.json")
     target = scalar("1", "index of the target in the plan, −1 for none")
     impedance = scalar("1", "which of the platform's impedance profiles to fly with, by its place")
 

@@ -13,7 +13,7 @@ import sys
 
 from typer.exceptions import TyperException
 
-from inspect_cli.cli import installation, missions, reports
+from inspect_cli.cli import installation, missions, reports, studies
 from inspect_cli.cli.program import app, print_json
 from inspect_cli.errors import (
     EXIT_FAULT,
@@ -30,7 +30,7 @@ COMMANDS = (
     missions.fly,
     reports.report,
     missions.regress,
-    missions.study,
+    studies.study,
     installation.doctor,
     installation.schema,
 )
@@ -41,7 +41,7 @@ SEARCHED_EVERY = (200_000, 50, 100)
 points, and looking through them again and again took a fifth of its time."""
 
 for _command in COMMANDS:
-    app.command()(_command)
+    app.command(cls=studies.StudyCommand if _command is studies.study else None)(_command)
 
 
 def main() -> None:

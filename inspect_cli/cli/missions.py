@@ -11,7 +11,6 @@ import typer
 
 from inspect_cli.cli.program import (
     Json,
-    Language,
     Mission,
     Out,
     Platform,
@@ -100,56 +99,6 @@ def regress(
         sys.stdout.write(outcome.report.model_dump_json(by_alias=True) + "\n")
     else:
         terminal.print_regression(outcome.report, outcome.updated)
-    return outcome.exit_code
-
-
-def study(
-    name: Annotated[str, typer.Argument(metavar="NAME", help="Which study: force, pitch.")],
-    mission: Mission,
-    gains: Annotated[
-        str | None, typer.Option(metavar="K,K,…", help="force: observer gains K_I, 1/s.")
-    ] = None,
-    speeds: Annotated[
-        str | None, typer.Option(metavar="V,V,…", help="force: speeds of the approach, m/s.")
-    ] = None,
-    pitch: Annotated[
-        str | None, typer.Option(metavar="P,P,…", help="pitch: pitches of the grid, m.")
-    ] = None,
-    fly: Annotated[
-        bool, typer.Option("--fly", help="pitch: fly each pitch once, beside the samples.")
-    ] = False,
-    out: Out = None,
-    seed: Annotated[
-        int | None, typer.Option(min=0, help="Of the noise; by default the mission's first.")
-    ] = None,
-    jobs: Annotated[int, typer.Option(min=1, help="Flights at a time.")] = 1,
-    language: Language = "en",
-    as_json: Json = False,
-) -> int:
-    """Fly or sample a mission with varied numbers; show what they do to its metrics."""
-    from inspect_cli import terminal
-    from inspect_cli.commands.study import study as command
-
-    options = {"gains": gains, "speeds": speeds, "pitch": pitch}
-    asked = {k: v for k, v in options.items() if v is not None}
-    with stdout_kept_clean():
-        terminal.announce_compilation(shown=not as_json)
-        with terminal.regression_progress(shown=not as_json) as progress:
-            outcome = command(
-                name,
-                mission,
-                asked=asked,
-                out=out,
-                seed=seed,
-                jobs=jobs,
-                language=language,
-                fly_sampled=fly,
-                progress=progress,
-            )
-    if as_json:
-        sys.stdout.write(outcome.result.model_dump_json(by_alias=True) + "\n")
-    else:
-        terminal.print_study(outcome.result, outcome.page)
     return outcome.exit_code
 
 

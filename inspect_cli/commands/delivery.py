@@ -16,10 +16,9 @@ from inspect_cli.exchange.readings import HandedReadings
 from inspect_cli.files import write_whole
 from inspect_cli.log.reader import RunLog
 from inspect_cli.pictures.names import FILM_NAME, SCENE_NAME
-from inspect_cli.reporting.content import Document
-from inspect_cli.reporting.html import html
-from inspect_cli.reporting.language import language as language_of
-from inspect_cli.reporting.page import REPORT_NAME
+from inspect_cli.reporting.content.blocks import REPORT_NAME, Document
+from inspect_cli.reporting.screen.html import html
+from inspect_cli.reporting.words.language import language as language_of
 from inspect_cli.schema.explain import suggest
 from inspect_cli.schema.result import Result
 from inspect_cli.schema.survey import Georeference, LanguageCode
@@ -100,7 +99,7 @@ def deliver(folder: Path, document: Document, wanted: Wanted) -> Path:
     write_whole(page, html(document, language))
     if wanted.pdf:
         # matplotlib and typst are loaded for this alone.
-        from inspect_cli.reporting.typeset import write_pdf
+        from inspect_cli.reporting.paper.typeset import write_pdf
 
         write_pdf(document, language, folder / PDF_NAME)
     else:

@@ -16,6 +16,7 @@ from inspect_cli.log.writer import LogWriter
 from inspect_cli.metrics.evaluate import evaluate
 from inspect_cli.records import CORE_RECORDS, Record, TrueDisturbance
 from inspect_cli.schema.loading import Loaded
+from inspect_cli.schema.modes import ModeTable
 from inspect_cli.schema.plan import Plan
 from inspect_cli.schema.result import Result
 from inspect_cli.schema.truth import TruthModel
@@ -82,7 +83,7 @@ def _fly(
 ) -> Ending:
     lengths = vehicle.capabilities.lengths
     with LogWriter(folder / LOG_NAME, _records(loaded.truth), lengths) as log:
-        _attach(log, loaded, plan, seed)
+        _attach(log, loaded, plan, vehicle.behaviour.table, seed)
         if rasters := true_rasters(structure, plan.surfaces):
             log.attach(names.SPECIMEN, "application/zip", encoded(rasters))
         log.scene(0.0, plan)
@@ -115,12 +116,13 @@ def _note_reliefs(log: LogWriter, structure: StructureTruth) -> None:
             log.event(0.0, "info", f"{text} that depart from it by {departs_mm:.2g} mm at most")
 
 
-def _attach(log: LogWriter, loaded: Loaded, plan: Plan, seed: int) -> None:
+def _attach(log: LogWriter, loaded: Loaded, plan: Plan, modes: ModeTable, seed: int) -> None:
     """Everything that the report needs travels in the log."""
     models = {
         names.MISSION: loaded.mission,
         names.PLATFORM: loaded.platform,
         names.PLAN: plan,
+        names.MODE_TABLE: modes,
         names.TRUTH: loaded.truth,
     }
     for name, model in models.items():

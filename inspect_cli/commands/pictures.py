@@ -7,10 +7,10 @@ from pathlib import Path
 from inspect_cli.files import write_whole
 from inspect_cli.log.reader import RunLog
 from inspect_cli.pictures.names import FILM_NAME, SCENE_NAME
+from inspect_cli.pictures.render import Pictures, render_pictures
 from inspect_cli.pictures.script import LegendEntry
-from inspect_cli.pictures.take import Pictures, take_pictures
-from inspect_cli.reporting.language import language as language_of
-from inspect_cli.reporting.palette import ASTM_STYLES, INVALID_STYLE
+from inspect_cli.reporting.figures.palette import ASTM_STYLES, INVALID_STYLE
+from inspect_cli.reporting.words.language import language as language_of
 from inspect_cli.schema.result import Result
 from inspect_cli.schema.survey import LanguageCode
 
@@ -35,7 +35,7 @@ def pictured(
     """
     taken = Pictures()
     if wanted:
-        taken = take_pictures(log, result, mark_styles(language), flight)
+        taken = render_pictures(log, result, mark_styles(language), flight)
     for name, content in ((SCENE_NAME, taken.scene_png), (FILM_NAME, taken.film_mp4)):
         if content is None:
             (folder / name).unlink(missing_ok=True)

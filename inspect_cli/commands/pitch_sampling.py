@@ -30,7 +30,7 @@ from inspect_cli.metrics.assessed import basis_on
 from inspect_cli.metrics.cells import Cells, cells_around, in_squares, nearest_to
 from inspect_cli.metrics.truth_scoring import Judged, score_surface
 from inspect_cli.planning.lattice import lattice
-from inspect_cli.reporting.figures_pitch import (
+from inspect_cli.reporting.studies.pitch_figures import (
     ACTIVE,
     DETECTED,
     DURATION,

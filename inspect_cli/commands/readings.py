@@ -36,14 +36,14 @@ from inspect_cli.commands.delivery import (
     require_exportable,
     require_room,
 )
-from inspect_cli.commands.evaluating import mapped
 from inspect_cli.commands.runs import METRICS_NAME, READINGS_NAME, write_model
+from inspect_cli.commands.surface_maps import with_map
 from inspect_cli.errors import InputError
 from inspect_cli.exchange.readings import HandedReadings
 from inspect_cli.exchange.readings_csv import readings_csv
 from inspect_cli.files import write_whole
-from inspect_cli.reporting.evaluated import Evaluated
-from inspect_cli.reporting.readings import readings_document
+from inspect_cli.reporting.documents.readings import readings_document
+from inspect_cli.reporting.half_cell.surface_findings import SurfaceFindings
 from inspect_cli.schema.assessment import Basis
 from inspect_cli.schema.readings import ReadingsResult, SourceOfReadings
 from inspect_cli.schema.result import PointResult
@@ -95,7 +95,7 @@ def report_readings(
     require_exportable(len(survey.labels), wanted)
     name = survey.settings.structure or file.stem
     readings, basis = standard_readings(survey)
-    evaluated = mapped(assess(name, readings, basis=basis))
+    evaluated = with_map(assess(name, readings, basis=basis))
     points = points_of(name, survey, readings, evaluated.assessed)
     result = _result(file, survey, evaluated)
     report_folder(folder)
@@ -216,7 +216,7 @@ def _known(values: Vector) -> list[float | None]:
     return [None if math.isnan(value) else value for value in values.tolist()]
 
 
-def _result(file: Path, survey: Survey, evaluated: Evaluated) -> ReadingsResult:
+def _result(file: Path, survey: Survey, evaluated: SurfaceFindings) -> ReadingsResult:
     found = evaluated.map
     return ReadingsResult(
         survey=survey.settings.title or file.name,

@@ -17,14 +17,14 @@ from inspect_cli.commands.delivery import (
     require_exportable,
     require_room,
 )
-from inspect_cli.commands.evaluating import evaluated_points
 from inspect_cli.commands.pictures import pictured
 from inspect_cli.commands.runs import METRICS_NAME, log_of, write_model, write_readings
+from inspect_cli.commands.surface_maps import with_maps
 from inspect_cli.commands.survey_report import report_survey, survey_of
 from inspect_cli.log.reader import read_log
-from inspect_cli.metrics.evaluate import evaluate
-from inspect_cli.pictures.take import Pictures
-from inspect_cli.reporting.report import report_document
+from inspect_cli.metrics.evaluate import evaluate_with_arrays
+from inspect_cli.pictures.render import Pictures
+from inspect_cli.reporting.documents.flight import report_document
 from inspect_cli.schema.coverage import CoveragePlan
 from inspect_cli.schema.result import Result
 
@@ -65,14 +65,16 @@ def _report_one(
     if survey is not None:
         return ReportOutcome(*report_survey(run, survey, folder, wanted))
     log = read_log(log_of(run))
-    result, plan = evaluate(log), log.plan()
+    evaluation = evaluate_with_arrays(log)
+    result = evaluation.result
     require_exportable(len(result.points), wanted)
     write_model(report_folder(folder) / METRICS_NAME, result)
     write_readings(folder, result)
     export(folder, handed_readings(log, result), wanted)
     taken = pictured(log, result, folder, wanted.language, wanted=wanted.pictures)
-    evaluated = evaluated_points(result.points, log)
-    page = deliver(folder, report_document(log, result, plan, evaluated, taken), wanted)
+    surfaces = with_maps(evaluation.assessed)
+    document = report_document(log, result, log.plan(), surfaces, taken)
+    page = deliver(folder, document, wanted)
     return ReportOutcome(result, page, taken)
 
 

@@ -1,4 +1,4 @@
-"""``inspect study``: one mission with varied numbers, and what that does to its metrics.
+"""``inspect study``: one mission with varied numbers, and their effect on its metrics.
 
 <out>/study-<name>/study.json  study.html
 <out>/study-<name>/<variant>/      an ordinary run of each variant that is flown
@@ -12,12 +12,11 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import Protocol
 
 import numpy as np
 
 from inspect_cli.commands.delivery import report_folder
-from inspect_cli.commands.fly import FlyOutcome, fly_loaded
+from inspect_cli.commands.fly import fly_loaded
 from inspect_cli.commands.plan import plan_loaded, vehicle_of
 from inspect_cli.commands.runs import log_of, write_model
 from inspect_cli.commands.study_force import FORCE
@@ -28,36 +27,30 @@ from inspect_cli.files import write_whole
 from inspect_cli.log.reader import read_log
 from inspect_cli.metrics.evaluate import measure
 from inspect_cli.metrics.flight import Flight
-from inspect_cli.regression.flights import FlightEnd, FlightTask, fly_all
-from inspect_cli.regression.run import Progress
-from inspect_cli.reporting.html import html
-from inspect_cli.reporting.language import language as language_of
-from inspect_cli.reporting.study import study_document
+from inspect_cli.regression.executors import OpenExecutor, local_executors
+from inspect_cli.regression.flights import FlightEnd, FlightTask, Fly, fly_all
+from inspect_cli.regression.run import Progress, counted
+from inspect_cli.reporting.screen.html import html
+from inspect_cli.reporting.studies.document import study_document
+from inspect_cli.reporting.words.language import language as language_of
 from inspect_cli.schema.coverage import CoveragePlan
 from inspect_cli.schema.explain import suggest
-from inspect_cli.schema.loading import Loaded, load_mission
+from inspect_cli.schema.loading import load_mission
 from inspect_cli.schema.plan import Plan
 from inspect_cli.schema.result import Metric
 from inspect_cli.schema.study import StudyColumn, StudyResult, StudyVariant
 from inspect_cli.schema.survey import LanguageCode
 
-STUDIES: dict[str, Study] = {"force": FORCE, "pitch": PITCH}
-"""What ``inspect study`` knows, by name."""
-
-
-class FlyLoaded(Protocol):
-    """Flies a mission that is read and planned; a function that other processes can import."""
-
-    def __call__(
-        self, loaded: Loaded, plan: Plan | CoveragePlan, *, seed: int, out: Path
-    ) -> FlyOutcome:
-        """Fly ``loaded`` with ``seed`` and write its files into the folder ``out``."""
-        ...
+STUDIES: dict[str, Study] = {
+    "force": FORCE,
+    "pitch": PITCH,
+}
+"""Every study by its name: one row each. The command line takes its options from here."""
 
 
 @dataclass(frozen=True)
 class StudyOutcome:
-    """What came out, and where it was written."""
+    """A study's result and its files."""
 
     result: StudyResult
     folder: Path
@@ -80,7 +73,8 @@ def study(
     language: LanguageCode = "en",
     fly_sampled: bool = False,
     progress: Progress | None = None,
-    fly: FlyLoaded = fly_loaded,
+    fly: Fly = fly_loaded,
+    open_executor: OpenExecutor | None = None,
 ) -> StudyOutcome:
     """Fly or sample the variants of a mission; write ``study.json`` and ``study.html``.
 
@@ -90,11 +84,13 @@ def study(
         asked: numbers with commas between them by option, instead of the study's own.
         out: folder for the study's, instead of the mission's in ``reports/``.
         seed: of every variant; by default the mission's first.
-        jobs: flights at a time.
+        jobs: flights at a time on this machine; does nothing with an ``open_executor``.
         language: of the page.
         fly_sampled: fly each variant of a study that samples, too.
-        progress: is told of each flight as it ends.
+        progress: called with each flight as it ends.
         fly: flies one variant.
+        open_executor: opens what runs the flights, for example a cluster's client; by default
+            processes of this machine.
 
     Raises:
         InputError: no such study, or a variant is refused; nothing was flown or written.
@@ -114,7 +110,18 @@ def study(
     ends: list[FlightEnd | None] = [None] * len(varied)
     columns = chosen.columns
     if sampler is None or fly_sampled:
-        ends = [*_flown(varied, plans, folder, seed, jobs, fly, progress)]
+        tasks = [
+            FlightTask(variant.loaded, seed, plan, folder / variant.name, variant.name)
+            for variant, plan in zip(varied, plans, strict=True)
+        ]
+        ends = [
+            *fly_all(
+                tasks,
+                fly=fly,
+                open_executor=open_executor or local_executors(jobs),
+                on_end=counted(len(tasks), progress),
+            )
+        ]
         columns += chosen.flown_columns
     result = StudyResult(
         study=name,
@@ -126,7 +133,7 @@ def study(
         quantities=tuple(factor.quantity(loaded) for factor in chosen.factors),
         columns=columns,
         variants=tuple(
-            _told(chosen, columns, *each) for each in zip(varied, ends, sampled, strict=True)
+            _row(chosen, columns, *each) for each in zip(varied, ends, sampled, strict=True)
         ),
         trials=sampler.trials if sampler else 0,
         common=dict(sampler.common) if sampler else {},
@@ -145,7 +152,7 @@ def _chosen(name: str, *, fly_sampled: bool) -> Study:
 def _written(
     chosen: Study, result: StudyResult, folder: Path, language: LanguageCode
 ) -> StudyOutcome:
-    """The study's files, with what came out in words."""
+    """Add thresholds and findings to the result and write the study's files."""
     result = chosen.concluded(result) if chosen.concluded else result
     write_model(folder / "study.json", result)
     page = folder / "study.html"
@@ -153,44 +160,6 @@ def _written(
     document = study_document(result, chosen.explained, figures)
     write_whole(page, html(document, language_of(language)))
     return StudyOutcome(result, folder, page)
-
-
-@dataclass(frozen=True)
-class _Flyer:
-    """Flies variants by the folder that they are flown into, in other processes too."""
-
-    fly: FlyLoaded
-    planned: Mapping[Path, tuple[Loaded, Plan | CoveragePlan]]
-
-    def __call__(
-        self, mission: Path, *, seed: int | None, platform: Path | None, out: Path | None
-    ) -> FlyOutcome:
-        if out is None or seed is None:
-            raise ValueError("a variant has a folder and a seed")
-        loaded, plan = self.planned[out]
-        return self.fly(loaded, plan, seed=seed, out=out)
-
-
-def _flown(
-    varied: Sequence[Variant],
-    plans: Sequence[Plan | CoveragePlan],
-    folder: Path,
-    seed: int,
-    jobs: int,
-    fly: FlyLoaded,
-    progress: Progress | None,
-) -> list[FlightEnd]:
-    planned = {folder / v.name: (v.loaded, plan) for v, plan in zip(varied, plans, strict=True)}
-    tasks = [FlightTask(v.loaded.mission_file, seed, folder / v.name, v.name) for v in varied]
-    done = 0
-
-    def on_end(end: FlightEnd) -> None:
-        nonlocal done
-        done += 1
-        if progress is not None:
-            progress(done, len(tasks), end)
-
-    return fly_all(tasks, jobs=jobs, fly=_Flyer(fly, planned), on_end=on_end)
 
 
 def _planned(variant: Variant) -> Plan | CoveragePlan:
@@ -201,14 +170,14 @@ def _planned(variant: Variant) -> Plan | CoveragePlan:
         raise InfeasibleError(problems) from error
 
 
-def _told(
+def _row(
     study: Study,
     columns: Sequence[StudyColumn],
     variant: Variant,
     end: FlightEnd | None,
     sampled: Sampled | None,
 ) -> StudyVariant:
-    """What the study shows of a variant: of its samples, of its flight, or of both."""
+    """The row of a variant: numbers of its samples, of its flight, or of both."""
     result = end.result if end else None
     missing = Metric(value=None, unit="1", why=(end.error if end else "") or "no such metric")
     known = dict(sampled.metrics) if sampled else {}
@@ -229,7 +198,7 @@ def _told(
 
 
 def _own(study: Study, end: FlightEnd) -> dict[str, Metric]:
-    """The study's own numbers of a flight, from its log."""
+    """The numbers of a flight that the study itself defines, from its log."""
     if end.folder is None or not study.own:
         return {}
     flight = Flight(read_log(log_of(end.folder)))

@@ -22,9 +22,9 @@ from inspect_cli.metrics.flight import Flight, root_mean_square
 from inspect_cli.metrics.force_sensor import measured_force
 from inspect_cli.metrics.spec import MetricSpec
 from inspect_cli.records import Reference, State, WallForce
-from inspect_cli.reporting.figures_study import PREDICTED, force_figure
-from inspect_cli.reporting.published import TABLE_IV
-from inspect_cli.reporting.text import say
+from inspect_cli.reporting.studies.sweep_figures import PREDICTED, force_figure
+from inspect_cli.reporting.words.published import TABLE_IV
+from inspect_cli.reporting.words.text import say
 from inspect_cli.schema.loading import Loaded
 from inspect_cli.schema.study import StudyColumn
 
@@ -98,8 +98,28 @@ FORCE = Study(
         "given the force that the sensor measured in the same flight."
     ),
     factors=(
-        Factor("gains", "gain", "K_I", "1/s", (0.5, 1.0, 2.0, 4.0), _gain, _with_gain),
-        Factor("speeds", "speed", "v", "m/s", (0.05, 0.1, 0.2, 0.4), _speed, _with_speed),
+        Factor(
+            option="gains",
+            metavar="K,K,…",
+            help="observer gains K_I, 1/s",
+            name="gain",
+            symbol="K_I",
+            unit="1/s",
+            values=(0.5, 1.0, 2.0, 4.0),
+            base=_gain,
+            changed=_with_gain,
+        ),
+        Factor(
+            option="speeds",
+            metavar="V,V,…",
+            help="speeds of the approach, m/s",
+            name="speed",
+            symbol="v",
+            unit="m/s",
+            values=(0.05, 0.1, 0.2, 0.4),
+            base=_speed,
+            changed=_with_speed,
+        ),
     ),
     columns=(
         *_errors("flight", "", published=True),

@@ -20,7 +20,7 @@ from inspect_cli.commands.pitch_sampling import POSITION_SD_M, PitchSampler
 from inspect_cli.commands.plan import plan_loaded, vehicle_of
 from inspect_cli.commands.sweeps import Factor, Study, revalidated, shortest
 from inspect_cli.errors import InputError, Location, Problem
-from inspect_cli.reporting.figures_pitch import (
+from inspect_cli.reporting.studies.pitch_figures import (
     ACTIVE,
     DETECTED,
     DURATION,
@@ -35,7 +35,7 @@ from inspect_cli.reporting.figures_pitch import (
     cost_figure,
     pitch_figure,
 )
-from inspect_cli.reporting.pitch_findings import (
+from inspect_cli.reporting.words.pitch_findings import (
     FALSELY_ACTIVE,
     OF_AREA,
     OF_SITES,
@@ -44,7 +44,7 @@ from inspect_cli.reporting.pitch_findings import (
     Thresholds,
     written,
 )
-from inspect_cli.reporting.text import number, say
+from inspect_cli.reporting.words.text import number, say
 from inspect_cli.schema.coverage import CoveragePlan
 from inspect_cli.schema.loading import Loaded
 from inspect_cli.schema.plan import Plan
@@ -244,7 +244,19 @@ PITCH = Study(
         external=number(1e3 * POSITION_SD_M["external"], 0),
         onboard=number(1e3 * POSITION_SD_M["onboard"], 0),
     ),
-    factors=(Factor("pitch", "pitch", "p", "m", (0.1, 0.15, 0.25, 0.5), _pitch, _with_pitch),),
+    factors=(
+        Factor(
+            option="pitch",
+            metavar="P,P,…",
+            help="pitches of the grid, m",
+            name="pitch",
+            symbol="p",
+            unit="m",
+            values=(0.1, 0.15, 0.25, 0.5),
+            base=_pitch,
+            changed=_with_pitch,
+        ),
+    ),
     columns=(
         StudyColumn(metric=POINTS, heading="Points", unit="1"),
         StudyColumn(metric=SORTIES, heading="Sorties", unit="1"),

@@ -16,7 +16,6 @@ from inspect_cli.commands.delivery import (
     report_folder,
     require_exportable,
 )
-from inspect_cli.commands.evaluating import evaluated_points
 from inspect_cli.commands.pictures import pictured
 from inspect_cli.commands.runs import (
     LOG_NAME,
@@ -26,14 +25,14 @@ from inspect_cli.commands.runs import (
     write_model,
     write_readings,
 )
+from inspect_cli.commands.surface_maps import with_maps
 from inspect_cli.errors import InputError, LogError
 from inspect_cli.log.reader import RunLog, read_log
 from inspect_cli.metrics.assessed import assessor
-from inspect_cli.metrics.evaluate import evaluate
-from inspect_cli.metrics.survey import joined_result, scorer
-from inspect_cli.pictures.take import Pictures
-from inspect_cli.reporting.report import report_document
-from inspect_cli.reporting.survey import survey_document
+from inspect_cli.metrics.evaluate import evaluate_with_arrays
+from inspect_cli.metrics.survey import joined_evaluation, scorer
+from inspect_cli.pictures.render import Pictures
+from inspect_cli.reporting.documents.flight import report_document, survey_document
 from inspect_cli.schema.coverage import CoveragePlan, Sortie
 from inspect_cli.schema.result import Result
 
@@ -85,11 +84,12 @@ def report_survey(
         log = _log_that_was_begun(file)
         if log is None:
             break
-        result = evaluate(log)
+        evaluation = evaluate_with_arrays(log)
+        result = evaluation.result
         own = report_folder(folder / sortie.folder)
         write_model(own / METRICS_NAME, result)
         write_readings(own, result)
-        document = report_document(log, result, log.plan(), evaluated_points(result.points, log))
+        document = report_document(log, result, log.plan(), with_maps(evaluation.assessed))
         deliver(own, document, replace(wanted, pdf=False))
         results.append(result)
         first = first or log
@@ -101,9 +101,10 @@ def report_survey(
     mission = first.mission()
     score_all = scorer(first.true_rasters(), mission)
     assess_all = assessor(mission, first.platform())
-    joined = joined_result(
+    survey_evaluation = joined_evaluation(
         results, unvisited, mission.acceptance, _seed(run), score_all, assess_all
     )
+    joined = survey_evaluation.result
     write_model(folder / METRICS_NAME, joined)
     write_readings(folder, joined)
     which = f"sortie 1 of {len(results)}"
@@ -111,8 +112,8 @@ def report_survey(
     taken = pictured(
         first, results[0], folder, wanted.language, wanted=wanted.pictures, flight=which
     )
-    evaluated = evaluated_points(joined.points, first)
-    document = survey_document(first, joined, results, survey, plan, evaluated, taken)
+    surfaces = with_maps(survey_evaluation.assessed)
+    document = survey_document(first, joined, results, survey, plan, surfaces, taken)
     return joined, deliver(folder, document, wanted), taken
 
 

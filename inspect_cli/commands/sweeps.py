@@ -1,9 +1,9 @@
-"""What a study is made of: quantities to vary, one at a time, and the missions that come of it.
+"""Studies and their factors: one quantity is varied at a time, and each value gives a mission.
 
-A study flies its variants, or samples what they would find where it has a ``sampler``.
+A study flies its variants, or, if it has a ``sampler``, computes their numbers without flying.
 
-Missions and platforms are varied in memory: a copy of the loaded model with other numbers, which
-is validated like a file. No file is read or written for it.
+Missions and platforms are varied in memory: a variant is a copy of the loaded models with other
+numbers, validated like a file. No file is read or written for it.
 """
 
 from __future__ import annotations
@@ -17,8 +17,8 @@ from pydantic import BaseModel, ValidationError
 
 from inspect_cli.errors import InputError
 from inspect_cli.metrics.spec import MetricSpec
-from inspect_cli.reporting.figure import Figure
-from inspect_cli.reporting.text import Text
+from inspect_cli.reporting.figures.figure import Figure
+from inspect_cli.reporting.words.text import Text
 from inspect_cli.schema.coverage import CoveragePlan
 from inspect_cli.schema.loading import Loaded
 from inspect_cli.schema.plan import Plan
@@ -33,20 +33,24 @@ class Factor:
     """A quantity that a study varies."""
 
     option: str
-    """What its values are called at the command line, without the dashes."""
+    """The option of the command line that takes its values, without the dashes."""
+    metavar: str
+    """The form of the option's value in the help."""
+    help: str
+    """What the option varies, in a few words for the help."""
     name: str
-    """What one value is called, in names of folders too."""
+    """The name of one value, also in names of folders."""
     symbol: str
     unit: str
     values: tuple[float, ...]
-    """Unless others are asked for."""
+    """The default values."""
     base: Callable[[Loaded], float]
-    """What a mission and its platform say."""
+    """The value of a mission and its platform as they stand."""
     changed: Callable[[Loaded, float], Loaded]
     """The same mission with another value.
 
     Raises:
-        ValueError: the value cannot be had; pydantic's ValidationError is one.
+        ValueError: the value is impossible; pydantic's ValidationError is a ValueError.
     """
 
     def quantity(self, loaded: Loaded) -> Quantity:
@@ -56,21 +60,21 @@ class Factor:
 
 @dataclass(frozen=True)
 class Study:
-    """What is varied, what is shown of it, and one figure."""
+    """What is varied, which metrics are shown, and the figures."""
 
     title: str
     explained: Text
-    """What is varied and against what it is held, in sentences for the page."""
+    """What is varied and what it is compared with, in sentences for the page."""
     factors: tuple[Factor, ...]
     columns: tuple[StudyColumn, ...]
     """Metrics of the catalogue, and those of ``own``."""
     refuse: Callable[[Loaded], None]
-    """Raises InputError for a mission that cannot be studied so."""
+    """Raises InputError for a mission that this study cannot vary."""
     own: Mapping[str, MetricSpec]
     """Numbers of a flight beyond the catalogue, by name."""
     figures: tuple[Callable[[StudyResult], Figure], ...]
     sampler: Callable[[Loaded, int], Sampler] | None = None
-    """Of a study that can do without flying: takes the mission and the seed."""
+    """Makes the sampler of a study that needs no flights from the mission and the seed."""
     flown_columns: tuple[StudyColumn, ...] = ()
     """Metrics of the catalogue that a study with a sampler shows in addition once it flies."""
     concluded: Callable[[StudyResult], StudyResult] | None = None
@@ -79,23 +83,23 @@ class Study:
 
 @dataclass(frozen=True)
 class Sampled:
-    """What a variant's plan and samples come to without a flight, by the names of metrics."""
+    """A variant's numbers from its plan and from samples, without a flight, by metric."""
 
     metrics: Mapping[str, Metric]
     standard_errors: Mapping[str, float]
 
 
 class Sampler(Protocol):
-    """Computes a variant's numbers from its plan and from what is truly so."""
+    """Computes a variant's numbers from its plan and from the true specimen."""
 
     @property
     def trials(self) -> int:
-        """How many samples each mean is taken over."""
+        """The number of samples that each mean is taken over."""
         ...
 
     @property
     def common(self) -> Mapping[str, Metric]:
-        """Numbers that every variant has alike, because they are of what is truly so."""
+        """Numbers of the true specimen, which are the same for every variant."""
         ...
 
     def __call__(self, variant: Variant, plan: Plan | CoveragePlan) -> Sampled:
@@ -117,10 +121,11 @@ def variants(
 ) -> list[Variant]:
     """Every factor varied by itself, the others held at what the mission says.
 
-    A choice that two sweeps share comes once. ``asked`` holds values by option.
+    Values that two sweeps share give one variant. ``asked`` holds values by option; a factor
+    whose option is not in it takes its default values.
 
     Raises:
-        InputError: an option that the study has not, or a value that cannot be had.
+        InputError: the study does not have an option, or a value is impossible.
     """
     options = [factor.option for factor in study.factors]
     for option in asked:

@@ -85,6 +85,8 @@ class Pursuit:
         self.reference.arm_angle[:] = posture.arm_angle
         self.implausible = 0
         """Surface estimates that were not followed because they contradict what is believed."""
+        self.tracks_surface = False
+        """Whether the surface that is seen corrects the reference; see ``track``."""
         self._surfaces = surfaces
         self._trajectory = Trajectory.resting(0.0, posture)
         self._approach: _Approach | None = None
@@ -149,6 +151,11 @@ class Pursuit:
             self._arrival_s = approach.following.end_s
             return
         self._follow(Trajectory(self._along_stroke(t_s, approach, limits)))
+
+    def track(self, t_s: float, surface: SurfaceEstimate) -> None:
+        """``observe`` the surface if the mode asks for that."""
+        if self.tracks_surface:
+            self.observe(t_s, surface)
 
     def observe(self, t_s: float, surface: SurfaceEstimate) -> None:
         """Correct the approach by an estimate of the local surface.
@@ -331,5 +338,4 @@ class Pursuit:
 
 def planned_posture(target: Target) -> Posture:
     """The posture of the target's contact, by the plan."""
-    contact = target.contact
-    return Posture(np.array(contact.p_WB), np.array(contact.q_WB), np.array(contact.arm_angle_rad))
+    return target.contact.posture

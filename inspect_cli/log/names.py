@@ -4,6 +4,8 @@ from __future__ import annotations
 
 MISSION, PLATFORM, PLAN = "mission.json", "platform.json", "plan.json"
 """Attachments without which a log cannot be evaluated."""
+MODE_TABLE = "modes.json"
+"""Attachment: the vehicle's table of modes (``schema.modes``), which numbers in a log refer to."""
 TRUTH = "truth.json"
 """Attachment of simulated flights only."""
 SPECIMEN = "truth/specimen.npz"

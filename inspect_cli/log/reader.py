@@ -23,6 +23,7 @@ from inspect_cli.log.rasters import TrueRaster, decoded
 from inspect_cli.log.walk import RawLog, walk
 from inspect_cli.records import CORE_RECORDS, Record
 from inspect_cli.schema.mission import Mission
+from inspect_cli.schema.modes import ModeTable
 from inspect_cli.schema.plan import Plan
 from inspect_cli.schema.result import Status
 from inspect_cli.schema.truth import TruthModel
@@ -93,6 +94,10 @@ class RunLog:
             raise self._error(f"the platform is of kind '{kind}'; known kinds are: {known}")
         return self._model(names.PLATFORM, model)
 
+    def modes(self) -> ModeTable:
+        """What the numbers of modes in ``/reference`` stand for."""
+        return self._model(names.MODE_TABLE, ModeTable)
+
     def truth(self) -> TruthModel | None:
         """What was so in a simulated flight; None for a real one."""
         if names.TRUTH not in self.attachments:
@@ -129,7 +134,7 @@ class RunLog:
         if name not in self.attachments:
             raise self._error(
                 f"the log has no attachment '{name}'",
-                "attach mission.json, platform.json and plan.json when the flight is recorded",
+                "attach mission.json, platform.json, plan.json and modes.json to what is recorded",
             )
         return self.attachments[name]
 
@@ -162,7 +167,7 @@ def read_log(path: Path) -> RunLog:
 
     A cut log is read up to its last whole chunk and has the status ``interrupted``. Logs of other
     writers are read too, see ``decode``. Raises LogError where the file cannot be read, is no
-    MCAP log, is damaged, or was cut before its mission, platform and plan were written.
+    MCAP log, is damaged, or was cut before its mission, platform, plan and modes were written.
     """
     raw = walk(path)
     if not raw.finished:
@@ -178,7 +183,7 @@ def read_log(path: Path) -> RunLog:
 
 
 def _require_attachments(raw: RawLog) -> None:
-    needed = (names.MISSION, names.PLATFORM, names.PLAN)
+    needed = (names.MISSION, names.PLATFORM, names.PLAN, names.MODE_TABLE)
     missing = [name for name in needed if name not in raw.attachments]
     if missing:
         what = f"the log was cut before its {missing[0]} was written: there is nothing to evaluate"

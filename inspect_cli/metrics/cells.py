@@ -23,7 +23,7 @@ LEAST_SAMPLES, MOST_SAMPLES = 10, 60
 """Along the edge of a square."""
 NEIGHBOURS = 12
 """Points whose squares may share a place."""
-TOUCHING = 1.0 - 1e-6
+APART = 1.0 - 1e-6
 """In pitches: points at least this far apart have squares of their own."""
 
 Owners = NDArray[np.intp]
@@ -88,7 +88,7 @@ def _unrolled(uv_m: Points, raster: TrueRaster) -> Points:
 
 def _overlap(uv_m: Points, pitch_m: float, raster: TrueRaster) -> bool:
     tree = KDTree(_unrolled(uv_m, raster))
-    return bool(len(tree.query_pairs(TOUCHING * pitch_m, p=np.inf, output_type="ndarray")))
+    return bool(len(tree.query_pairs(APART * pitch_m, p=np.inf, output_type="ndarray")))
 
 
 def _nearest_square(samples: Points, uv_m: Points, pitch_m: float, raster: TrueRaster) -> Owners:

@@ -5,7 +5,8 @@ from __future__ import annotations
 import numpy as np
 
 from inspect_cli.metrics.flight import TOUCH_N, Flight, NotMeasured, Rows, largest, mean
-from inspect_cli.records import Mode, TrueContact
+from inspect_cli.records import TrueContact
+from inspect_cli.schema.modes import Phase
 from inspect_cli.schema.plan import Target
 from inspect_cli.spatial.arrays import Vector
 
@@ -105,14 +106,14 @@ def bounce_gaps(flight: Flight) -> float:
 def gaps_of(flight: Flight, target: Target) -> int:
     """Those of one target.
 
-    The release is the last touch or the end of PRESS and SLIDE, whichever comes later: a contact
+    The release is the last touch or the end of the touching modes, whichever comes later: a contact
     that is lost before the tool is asked to leave, and never found again, is a gap as well.
     """
     rows = flight.contact_rows(target.index)
     touching = rows[flight.state["f_normal"][rows] >= TOUCH_N]
     times = flight.state["t_s"]
     tick_s = float(np.median(np.diff(times))) if len(times) > 1 else 0.0
-    asked = flight.in_modes(Mode.PRESS, Mode.SLIDE)
+    asked = flight.during(Phase.CONTACT)
     last = np.flatnonzero(asked & (flight.reference["target"] == target.index))[-1:]
     ends_s = times[touching]
     if len(ends_s) and len(last) and last[0] > touching[-1]:

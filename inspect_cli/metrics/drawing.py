@@ -28,7 +28,8 @@ import numpy as np
 from inspect_cli.metrics.contact import held_rows
 from inspect_cli.metrics.flight import Flight, NotMeasured, Rows, largest, root_mean_square
 from inspect_cli.metrics.geometry import attitude_angle
-from inspect_cli.records import Mode, TrueContact
+from inspect_cli.records import TrueContact
+from inspect_cli.schema.modes import Phase
 from inspect_cli.schema.plan import Stroke, Target
 from inspect_cli.spatial.arrays import Points, Vector
 
@@ -73,7 +74,7 @@ def slide_rows(flight: Flight, target: Target) -> Rows:
     Raises:
         NotMeasured: it never did.
     """
-    sliding = flight.reference["mode"] == Mode.SLIDE
+    sliding = flight.during(Phase.CONTACT, slides=True)
     rows: Rows = np.flatnonzero(sliding & (flight.reference["target"] == target.index))
     if len(rows) < 2:
         raise NotMeasured(f"target {target.label} was never slid along")

@@ -16,7 +16,7 @@ from __future__ import annotations
 import numpy as np
 
 from inspect_cli.metrics.flight import Flight, NotMeasured
-from inspect_cli.records import Mode
+from inspect_cli.schema.modes import Phase
 from inspect_cli.schema.vehicle import RotorDrive
 from inspect_cli.spatial.arrays import Points, Vector
 
@@ -49,7 +49,7 @@ def energy_flown(flight: Flight) -> float:
     thrust = flight.state["rotor_thrust"]
     if thrust.shape[1] != len(drives):
         raise NotMeasured(f"the log has {thrust.shape[1]} rotors, the platform {len(drives)}")
-    rows = flight.airborne | (flight.reference["mode"] == Mode.HOVER)
+    rows = flight.airborne | flight.during(Phase.SAFE)
     times = flight.state["t_s"][rows]
     if len(times) < 2:
         raise NotMeasured("the vehicle never left the ground")

@@ -14,6 +14,7 @@ from inspect_cli.metrics.assessed import assess_points, with_uncertainty
 from inspect_cli.metrics.catalogue import METRICS
 from inspect_cli.metrics.catalogue_assessment import assessment_metrics
 from inspect_cli.metrics.catalogue_scoring import metrics_of
+from inspect_cli.metrics.evaluation import Evaluation
 from inspect_cli.metrics.flight import Flight, NotMeasured
 from inspect_cli.metrics.points import point_results
 from inspect_cli.metrics.spec import MetricSpec
@@ -27,6 +28,11 @@ if TYPE_CHECKING:
 
 
 def evaluate(log: RunLog) -> Result:
+    """The result of a flight: see ``evaluate_with_arrays``, which returns the arrays, too."""
+    return evaluate_with_arrays(log).result
+
+
+def evaluate_with_arrays(log: RunLog) -> Evaluation:
     """Compute every metric, the fate of every point, and the mission's acceptance.
 
     The log alone is enough. Checks that divide by another mission's metric stay
@@ -46,7 +52,7 @@ def evaluate(log: RunLog) -> Result:
         known |= assessment_metrics(assessed) if assessed else {}
         metrics = {n: known.get(n) or measure(spec, flight) for n, spec in METRICS.items()}
         points = with_uncertainty(points, assessed)
-    return Result(
+    result = Result(
         mission=mission.name,
         platform=log.platform().name,
         seed=log.seed,
@@ -58,6 +64,7 @@ def evaluate(log: RunLog) -> Result:
         scoring=scoring,
         assessment=tuple(one.summary for one in assessed),
     )
+    return Evaluation(result, assessed)
 
 
 def _assessed(flight: Flight, points: Sequence[PointResult]) -> tuple[Assessed, ...]:

@@ -9,8 +9,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from inspect_cli.log.reader import RunLog
-from inspect_cli.records import Mode, Record, Reference, State
+from inspect_cli.records import Record, Reference, State
 from inspect_cli.schema.mission import Mission
+from inspect_cli.schema.modes import AT_SURFACE, IN_FLIGHT, OFF_GROUND, ModeTable, Phase
 from inspect_cli.schema.plan import Plan, Target
 from inspect_cli.schema.vehicle import PlatformBase
 from inspect_cli.spatial.arrays import Mask, Structured, Vector
@@ -36,7 +37,7 @@ class NotMeasured(Exception):
 class Dwell:
     """The time for which a point was truly pressed.
 
-    From the first to the last touch while the executive was in PRESS for that target; rows
+    From the first to the last touch while the tool was pressed on that target at rest; rows
     without touch in between belong to it, so that a bouncing tool does not look better.
     """
 
@@ -106,20 +107,24 @@ class Flight:
         """The reference on the ticks of ``state``."""
         return self.on_state_ticks(Reference)
 
-    def in_modes(self, first: Mode, last: Mode) -> Mask:
-        """Where the executive was in ``first`` … ``last``, by number."""
-        mode = self.reference["mode"]
-        return (mode >= first) & (mode <= last)
+    @cached_property
+    def modes(self) -> ModeTable:
+        """The vehicle's modes."""
+        return self.log.modes()
+
+    def during(self, *phases: Phase, slides: bool | None = None) -> Mask:
+        """Where the executive was in a mode of one of these phases (``ModeTable.within``)."""
+        return self.modes.within(self.reference["mode"], phases, slides=slides)
 
     @cached_property
     def airborne(self) -> Mask:
-        """From take-off to landing: modes TAKEOFF … LAND."""
-        return self.in_modes(Mode.TAKEOFF, Mode.LAND)
+        """From take-off to landing, but for what follows a failsafe."""
+        return self.during(*IN_FLIGHT)
 
     @cached_property
     def off_ground(self) -> Mask:
-        """Modes TRANSIT … RETREAT: the landing gear touches nothing."""
-        return self.in_modes(Mode.TRANSIT, Mode.RETREAT)
+        """The same without take-off and landing: the landing gear touches nothing."""
+        return self.during(*OFF_GROUND)
 
     @cached_property
     def touching(self) -> Mask:
@@ -159,14 +164,14 @@ class Flight:
         return targets
 
     def contact_rows(self, target: int) -> Rows:
-        """Rows of approach, press, slide and retreat of a target, first touch to release."""
-        busy = self.in_modes(Mode.APPROACH, Mode.RETREAT)
+        """Rows of a target from its approach to the retreat from it, first touch to release."""
+        busy = self.during(*AT_SURFACE)
         return self._first_to_last_touch(busy & (self.reference["target"] == target))
 
     @cached_property
     def dwells(self) -> dict[int, Dwell]:
         """The dwell on each target, by index; those that were never pressed are left out."""
-        pressing = self.reference["mode"] == Mode.PRESS
+        pressing = self.during(Phase.CONTACT, slides=False)
         dwells = {}
         for target in self.plan.targets:
             rows = self._first_to_last_touch(pressing & (self.reference["target"] == target.index))

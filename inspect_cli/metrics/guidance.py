@@ -6,7 +6,8 @@ import numpy as np
 
 from inspect_cli.metrics.flight import Flight, NotMeasured, mean, nearest
 from inspect_cli.metrics.geometry import direction_angle
-from inspect_cli.records import Mode, SurfaceEstimate, TrueContact
+from inspect_cli.records import SurfaceEstimate, TrueContact
+from inspect_cli.schema.modes import AT_SURFACE
 from inspect_cli.spatial.rotations import rotate
 
 NO_SURFACE = -1.0
@@ -22,7 +23,7 @@ def normal_error_mean_deg(flight: Flight) -> float:
     true = flight.rows(TrueContact)
     same_time = true[nearest(true["t_s"], seen["t_s"])]
     reference = flight.reference[nearest(flight.state["t_s"], seen["t_s"])]
-    busy = (reference["mode"] >= Mode.APPROACH) & (reference["mode"] <= Mode.RETREAT)
+    busy = flight.modes.within(reference["mode"], AT_SURFACE)
     usable = (seen["valid"] > 0.5) & (same_time["surface"] != NO_SURFACE) & busy
     if not np.any(usable):
         raise NotMeasured("no valid estimate of a surface during approach, press or retreat")

@@ -5,16 +5,16 @@ from __future__ import annotations
 import numpy as np
 
 from inspect_cli.metrics.flight import Flight, largest, mean
-from inspect_cli.records import Command, Mode
+from inspect_cli.records import Command
+from inspect_cli.schema.modes import Phase
 
 END_S = 1.0
 """The end of the log over which the vehicle shall be at rest."""
 
 
 def duration(flight: Flight) -> float:
-    """Time off the ground, s: modes TAKEOFF … LAND and the safe hover after an abort."""
-    mode = flight.reference["mode"]
-    times = flight.state["t_s"][flight.airborne | (mode == Mode.HOVER)]
+    """Time off the ground, s: from take-off to landing, and what follows a failsafe."""
+    times = flight.state["t_s"][flight.airborne | flight.during(Phase.SAFE)]
     return largest(times) - float(times[0])
 
 

@@ -11,6 +11,7 @@ from inspect_cli.metrics.assessed import AssessAll, with_uncertainty
 from inspect_cli.metrics.catalogue import METRICS
 from inspect_cli.metrics.catalogue_assessment import assessment_metrics
 from inspect_cli.metrics.catalogue_scoring import metrics_of
+from inspect_cli.metrics.evaluation import Evaluation
 from inspect_cli.metrics.flight import NotMeasured
 from inspect_cli.metrics.joined import Joined
 from inspect_cli.metrics.truth_scoring import score
@@ -37,6 +38,18 @@ def joined_result(
     score_all: ScoreAll | None = None,
     assess_all: AssessAll | None = None,
 ) -> Result:
+    """The result of a survey: see ``joined_evaluation``, which returns the arrays, too."""
+    return joined_evaluation(results, unvisited, acceptance, seed, score_all, assess_all).result
+
+
+def joined_evaluation(
+    results: Sequence[Result],
+    unvisited: Sequence[Target],
+    acceptance: Iterable[Acceptance],
+    seed: int | None,
+    score_all: ScoreAll | None = None,
+    assess_all: AssessAll | None = None,
+) -> Evaluation:
     """The flights as one survey: all points, every metric by its rule, the mission's acceptance.
 
     Args:
@@ -53,7 +66,7 @@ def joined_result(
     assessed = assess_all(points) if assess_all else ()
     metrics = joined_metrics(results, len(unvisited), scoring, assessed)
     status, reason = _status(results, len(unvisited))
-    return Result(
+    result = Result(
         mission=first.mission,
         platform=first.platform,
         seed=seed,
@@ -65,6 +78,7 @@ def joined_result(
         scoring=scoring,
         assessment=tuple(one.summary for one in assessed),
     )
+    return Evaluation(result, assessed)
 
 
 def scorer(rasters: Sequence[TrueRaster], mission: Mission) -> ScoreAll:

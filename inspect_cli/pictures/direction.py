@@ -1,4 +1,4 @@
-"""From a flight to a script: what is shown, when, and from where."""
+"""The script of a flight's pictures: what is shown, when, and from where."""
 
 from __future__ import annotations
 
@@ -10,11 +10,12 @@ import numpy as np
 
 from inspect_cli.log.layout import Bytes
 from inspect_cli.log.reader import RunLog
-from inspect_cli.pictures.marks import Mark, MarkStyle, marks_of
-from inspect_cli.pictures.motion import Motion, motion_of, telling_moment
+from inspect_cli.pictures.moments import still_moment
 from inspect_cli.pictures.script import FILM_PX, FPS, SCENE_PX, LegendEntry, Script, Shot
-from inspect_cli.pictures.stage import FIELD_OF_VIEW_DEG, SEGMENTS, build_stage
-from inspect_cli.pictures.views import View, best_view, boxed, facing, framed, in_frame, near
+from inspect_cli.scene.marks import Mark, MarkStyle, marks_of
+from inspect_cli.scene.motion import Motion, motion_of
+from inspect_cli.scene.scene_model import FIELD_OF_VIEW_DEG, SEGMENTS, build_scene
+from inspect_cli.scene.views import View, best_view, boxed, facing, framed, in_frame, near
 from inspect_cli.schema.plan import Plan
 from inspect_cli.schema.primitives import primitive_of
 from inspect_cli.schema.result import Result
@@ -23,21 +24,21 @@ from inspect_cli.spatial.patches import patch_nodes
 from inspect_cli.vehicles import build_vehicle
 
 FILM_S = 10.0
-"""Length of a film of a flight that is longer; shorter flights are shown as fast as they were."""
+"""Length of a film, s; a flight that is shorter is shown in real time."""
 LEAST_FRAMES = 2
 AROUND_M = 0.35
-"""Of the structure, what is so near to the work or the path is in the frame."""
+"""Parts of the structure within this distance of the work or the path are in the frame."""
 WORK_M = 0.12
 PATH_SAMPLES, WATCHED_SAMPLES = 60, 30
 TOGETHER_M = 2.5
 """The still shows the points to touch that are no farther than this from the vehicle."""
 CLOSE_M = 1.5
-"""From the close camera to what it looks at, in spans of the vehicle."""
+"""Distance from the close camera to the point that it looks at, in spans of the vehicle."""
 
 
 @dataclass(frozen=True, eq=False)
 class Direction:
-    """A script and what its captions have to say."""
+    """A script, and the facts that its captions state."""
 
     script: Script
     motion: Motion
@@ -56,7 +57,7 @@ def direct(log: RunLog, result: Result, styles: Mapping[str, MarkStyle]) -> Dire
         return None
     marks = marks_of(log, plan, result, motion, styles)
     span_m = _span(nominal, vehicle.actuators.rotor_radius_m)
-    still_s, touching = telling_moment(log, motion)
+    still_s, touching = still_moment(log, motion)
     film_s, speed = _film_times(motion)
     shown = _shown(plan, motion, span_m)
     view = best_view(
@@ -68,7 +69,7 @@ def direct(log: RunLog, result: Result, styles: Mapping[str, MarkStyle]) -> Dire
         FILM_PX[0] / FILM_PX[1],
     )
     center, extent = shown.mean(axis=0), float(np.ptp(shown, axis=0).max())
-    model = build_stage(
+    model = build_scene(
         vehicle, plan.surfaces, marks, _sun(plan, view), _overhead(plan), center, extent
     )
     legend = _legend(marks, styles)
@@ -89,7 +90,7 @@ def _saved(model: mujoco.MjModel) -> Bytes:
 
 
 def _span(model: mujoco.MjModel, rotor_radius_m: float) -> float:
-    """Half the width, m, of what is seen of the vehicle."""
+    """Half the visible width of the vehicle, m."""
     data = mujoco.MjData(model)
     mujoco.mj_kinematics(model, data)
     reach = np.linalg.norm(data.site_xpos - data.xpos[model.body("core").id], axis=1)
@@ -116,7 +117,8 @@ def _path(motion: Motion, samples: int) -> Points:
 
 
 def _shown(plan: Plan, motion: Motion, span_m: float) -> Points:
-    """What a film has in its frame: the work, the path with the vehicle on it, and around it."""
+    """Points (n, 3) that the film's frame must hold: the work, the path, and what is near to
+    them."""
     path = _path(motion, PATH_SAMPLES)
     work = _work(plan)
     path = near(path, [*work, np.array(plan.start.p_WB)], 3.0 * span_m)  # unless it flew off
@@ -131,20 +133,22 @@ def _fine_nodes(plan: Plan, index: int) -> Points:
 
 
 def _watched(plan: Plan, motion: Motion) -> Points:
-    """What should not be hidden: the points, a little before their surfaces, and the path."""
+    """Points (n, 3) that should be visible: the targets, 5 cm before their surfaces, and the
+    path."""
     before = [np.array(t.p_WC) + 0.05 * np.array(t.n_W) for t in plan.targets]
     return np.concatenate([np.array(before), _path(motion, WATCHED_SAMPLES)])
 
 
 def _beside(plan: Plan, motion: Motion, t_s: float) -> Vector:
-    """From the tool at a time towards the middle of the work, most of which it leaves behind."""
+    """Vector (3,), m, from the tool at time ``t_s`` to the mean of the targets."""
     tip_W = motion.p_WT[motion.at(np.array([t_s]))[0]]
     away: Vector = _work(plan).mean(axis=0) - tip_W
     return away
 
 
 def _sun(plan: Plan, view: View) -> Vector:
-    """From where the light falls: above, on the side of the camera that the surfaces face."""
+    """Unit vector (3,) towards the sun: above, and on the side that the surfaces and the camera
+    share."""
     to_eye = view.eye_W - view.at_W
     to_eye = to_eye / np.linalg.norm(to_eye)
     sun: Vector = facing(plan) + 0.35 * to_eye

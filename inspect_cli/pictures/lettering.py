@@ -1,4 +1,4 @@
-"""What is written into a picture: the time, the legend, and the frame of the close view."""
+"""Text and frames that are drawn into a picture: time, legend, close view."""
 
 from __future__ import annotations
 
@@ -13,11 +13,11 @@ from inspect_cli.pictures.script import LegendEntry
 
 INK, MUTED, PAPER = (31, 35, 40), (89, 99, 110), (255, 255, 255)
 EDGE_SHARE, LETTER_SHARE = 0.03, 0.033
-"""Of the picture's height: the free edge, and the size of letters."""
+"""Free edge and size of letters, as shares of the picture's height."""
 PANEL_OPACITY = 215
 STEP = 3
-"""Between the levels of a PNG file's colours: it is not seen, and the file is much smaller.
-It divides 255, so that white stays white."""
+"""Step between the colour levels of a PNG file: invisible, and the file is much smaller. It divides
+255, so that white stays white."""
 
 
 def lettered(image: Any, line: str, legend: Sequence[LegendEntry]) -> Any:

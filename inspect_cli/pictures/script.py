@@ -1,6 +1,6 @@
-"""What the darkroom gets: everything that it takes to render, in one file of plain arrays.
+"""The input of the render process: model, poses and views in one file of plain arrays.
 
-The darkroom is a process of its own, since a driver of graphics may crash or hang.
+Rendering is a process of its own, because a graphics driver may crash or hang.
 """
 
 from __future__ import annotations
@@ -14,12 +14,12 @@ import numpy as np
 
 from inspect_cli.log.layout import Bytes
 from inspect_cli.pictures.names import SCRIPT_NAME
-from inspect_cli.pictures.views import View
+from inspect_cli.scene.views import View
 from inspect_cli.spatial.arrays import Indices, Mask, Points
 
 SCENE_PX, FILM_PX = (1280, 720), (848, 480)
-"""A film's sizes are multiples of 16, the encoder's blocks: what fills up a block that is not
-whole differs from run to run, and the bytes with it."""
+"""Width and height of a film are multiples of 16, the encoder's blocks: the padding of a partial
+block differs from run to run, and so would the bytes."""
 INSET_PX = 190
 """Width and height of the close view in a film's corner."""
 FPS = 12
@@ -44,7 +44,7 @@ class Shot:
     """(n, marks): which marks are there."""
     view: View
     close_on_right: bool
-    """In which upper corner the second camera's picture lies."""
+    """Whether the second camera's picture is in the upper right corner, not the upper left."""
     lettering: tuple[str, ...]
     """One line for each frame; empty for none."""
     close_eyes_W: Points | None
@@ -66,7 +66,7 @@ class Script:
 
 
 def save_script(script: Script, folder: Path) -> None:
-    """Write the script where the darkroom looks for it."""
+    """Write the script into the folder that the render process reads."""
     arrays: dict[str, Any] = {"model": script.model, "marks": script.marks}
     words: dict[str, object] = {"legend": [vars(entry) for entry in script.legend]}
     for name, shot in (("still", script.still), ("film", script.film)):

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from inspect_cli.autonomy.executive import PAUSE_S, SIGHT_S
+from inspect_cli.autonomy.timing import PAUSE_S, SIGHT_S
 from inspect_cli.interfaces import Capabilities, Posture
 from inspect_cli.planning.feasibility import clamp_of
 from inspect_cli.planning.path import Way

@@ -12,7 +12,7 @@ from typing import Protocol
 
 import numpy as np
 
-from inspect_cli.autonomy.executive import PAUSE_S
+from inspect_cli.autonomy.timing import PAUSE_S
 from inspect_cli.interfaces import Capabilities, Posture
 from inspect_cli.planning.contact_poses import Touch
 from inspect_cli.planning.feasibility import Assessment

@@ -1,1 +1,1 @@
-"""Flies missions in parallel, compares their metrics with references, tells CI."""
+"""Flies missions in parallel, compares their metrics with references, reports to CI servers."""

@@ -1,8 +1,8 @@
-"""A result against its reference.
+"""Compares the metrics of a result with those of its reference.
 
-On one machine a mission and seed give the same bytes. Another processor orders sums otherwise,
-and a closed loop with contact magnifies the last digit, so a metric may move by a few percent
-plus what is too small to matter in its unit. Counts may not move at all.
+On one machine a mission and seed give the same bytes. Another processor adds in another order,
+and a closed loop with contact amplifies the last digit. A metric may therefore differ by a few
+percent plus an absolute amount that does not matter in its unit. Counts may not differ at all.
 """
 
 from __future__ import annotations
@@ -43,7 +43,7 @@ BY_UNIT: dict[str, Tolerance] = {
     "rad/(N·m)": Tolerance(0.001, 0.05),
     "1": EXACT,
 }
-"""What a metric may move by, by its unit; a unit that is not here may not move."""
+"""The tolerance of a metric by its unit; a metric with any other unit must not change."""
 
 BY_METRIC: dict[str, Tolerance] = {
     # Extremes of noisy signals move more than means do.
@@ -51,13 +51,13 @@ BY_METRIC: dict[str, Tolerance] = {
     "contact.force_peak_n": Tolerance(0.1, 0.10),
     "contact.body_force_max_n": Tolerance(0.1, 0.10),
     "actuators.thrust_max_n": Tolerance(0.1, 0.10),
-    # Without a unit, and yet not counts.
+    # Dimensionless metrics that are no counts.
     "contact.force_cv": Tolerance(0.005, 0.10),
     "contact.residual_cv": Tolerance(0.005, 0.10),
     "contact.oscillation_growth": Tolerance(0.05, 0.10),
     "estimation.moving_over_hovering": Tolerance(0.05, 0.10),
     "half_cell.resistance_error_rel_max": Tolerance(0.002, 0.10),
-    # Two points on either side of a site may read the same.
+    # Two points on either side of a site may give the same reading.
     "half_cell.potential_min_point": Tolerance(1.0, 0.0),
     # A difference of about 150 mV may fall on either side.
     "assessment.proposals_count": Tolerance(1.0, 0.0),

@@ -1,4 +1,4 @@
-"""The regression's outcome on GitHub Actions: annotations and the step summary.
+"""Formats a regression's report for GitHub Actions: annotations and the step summary.
 
 Formats: docs.github.com, "Workflow commands for GitHub Actions" (setting an error message,
 adding a job summary).
@@ -23,7 +23,7 @@ def annotation_lines(report: RegressReport) -> tuple[str, ...]:
 
 
 def step_summary(report: RegressReport) -> str:
-    """A table of all flights in GitHub's Markdown, then what is wrong with each."""
+    """A table of all flights in GitHub's Markdown, then the reasons of those that fail."""
     counts = f"{report.passed} passed, {report.failed} failed"
     if report.known:
         counts += f", {report.known} fail as declared"

@@ -1,4 +1,4 @@
-"""The regression's outcome as JUnit XML, which CI servers read.
+"""Formats a regression's report as JUnit XML, which CI servers read.
 
 Format: the Ant JUnit schema as Jenkins, GitLab and GitHub actions understand it: one test case
 per flight, ``failure`` for a flight that does not pass, ``error`` for one that could not be
@@ -14,7 +14,7 @@ from inspect_cli.regression.outcome import FlightReport, RegressReport
 from inspect_cli.regression.verdict import describe
 
 NOT_XML = re.compile("[^\t\n\r\u0020-\ud7ff\ue000-\ufffd\U00010000-\U0010ffff]")
-"""What XML 1.0 cannot hold even when escaped (section 2.2, Char)."""
+"""Characters that XML 1.0 excludes even when escaped (section 2.2, Char)."""
 
 
 def junit_xml(report: RegressReport) -> str:

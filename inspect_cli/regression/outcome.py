@@ -1,4 +1,4 @@
-"""What a regression came to, as ``inspect regress --json`` prints it."""
+"""Models of a regression's result, as ``inspect regress --json`` prints it."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ class Change(Strict):
     difference: float | None
     """value − reference; None when one of them is not measured."""
     relative: float | None
-    """difference / |reference|; None where that does not exist."""
+    """difference / |reference|; None if the reference is zero or not measured."""
     allowed: float | None
     """The largest |difference| within tolerance."""
     what: str
@@ -34,19 +34,19 @@ class FlightReport(Strict):
     platform: str
     seed: int
     verdict: FlightVerdict
-    """``fail-known`` when nothing is wrong but what the mission declares as known failures."""
+    """``fail-known`` if only checks fail that the mission declares as known failures."""
     status: Status | None
     """How the flight ended; None when it could not be flown."""
     reasons: tuple[str, ...]
-    """What is wrong, in words; empty when it passes."""
+    """Why the flight fails; empty if it does not."""
     checks: tuple[Check, ...]
     changes: tuple[Change, ...]
     wall_s: float
-    """Time that the flight took to compute."""
+    """Wall-clock time of planning, flight and evaluation, s."""
     folder: str | None
-    """Where log and report are."""
+    """The folder of log and report."""
     details: str = ""
-    """The traceback of a fault of ours."""
+    """The traceback of an error that is a defect of the program."""
 
 
 class RegressReport(Strict):

@@ -1,4 +1,7 @@
-"""The committed reference metrics: ``reports/reference/<mission>/<platform>-seed<N>.json``."""
+"""Reads and writes the committed reference metrics.
+
+They lie in ``reports/reference/<mission>/<platform>-seed<N>.json``.
+"""
 
 from __future__ import annotations
 
@@ -17,7 +20,7 @@ SIGNIFICANT_DIGITS = 9
 
 
 class ReferenceMetrics(Strict):
-    """The metrics of a flight that was looked at and found good."""
+    """The metrics of a flight that was reviewed and accepted."""
 
     schema_version: Annotated[Literal[1], Field(alias="schema")] = 1
     mission: str
@@ -28,7 +31,7 @@ class ReferenceMetrics(Strict):
 
 
 def reference_file(root: Path, mission: str, platform: str, seed: int) -> Path:
-    """Where the reference of a flight lies in the campaign folder ``root``."""
+    """The path of a flight's reference in the campaign folder ``root``."""
     return root / "reports" / "reference" / mission / f"{platform}-seed{seed}.json"
 
 
@@ -38,7 +41,7 @@ def rounded(value: float | None) -> float | None:
 
 
 def reference_of(result: Result, seed: int) -> ReferenceMetrics:
-    """What is kept of a result."""
+    """The reference metrics of a result."""
     return ReferenceMetrics(
         mission=result.mission,
         platform=result.platform,
@@ -66,7 +69,7 @@ def read_reference(path: Path) -> ReferenceMetrics | None:
 
 
 def write_reference(path: Path, reference: ReferenceMetrics) -> None:
-    """Replace a reference in one step; small, sorted, so that version control shows changes.
+    """Replace a reference file atomically; keys are sorted, so that diffs stay small.
 
     Raises:
         EnvironmentFault: the file cannot be written.

@@ -1,12 +1,12 @@
-"""The regression from selected missions to a report."""
+"""Runs the regression: from selected missions to a report of their flights."""
 
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
 from pathlib import Path
 
-from inspect_cli.regression.flights import FlightEnd, FlightTask, Fly, fly_all
+from inspect_cli.regression.executors import OpenExecutor
+from inspect_cli.regression.flights import FlightEnd, FlightTask, Fly, OnEnd, fly_all
 from inspect_cli.regression.outcome import FlightReport, RegressReport
 from inspect_cli.regression.reference import reference_file, reference_of, write_reference
 from inspect_cli.regression.selection import Selection
@@ -17,100 +17,84 @@ Progress = Callable[[int, int, FlightEnd], None]
 """(flights done, flights in all, the one that just ended)."""
 
 
-@dataclass(frozen=True)
-class Flight:
-    """One mission with one seed, and how it ended."""
-
-    loaded: Loaded
-    end: FlightEnd
-
-    @property
-    def reference(self) -> Path:
-        """The file of its reference metrics."""
-        loaded = self.loaded
-        return reference_file(
-            loaded.root, loaded.mission.name, loaded.platform.name, self.end.task.seed
-        )
-
-
 def run(
     selections: Sequence[Selection],
     *,
-    jobs: int,
+    open_executor: OpenExecutor,
     fly: Fly,
     update: bool = False,
     out: Path | None = None,
     progress: Progress | None = None,
 ) -> tuple[RegressReport, tuple[Path, ...]]:
-    """Fly everything, then judge, then rewrite references if asked to.
+    """Fly everything, then judge it, then rewrite references if ``update`` is set.
 
     References are written after the last flight, each file in one step, so that an interrupted
     run leaves them as they were.
 
     Returns:
-        The report, and the references that were rewritten.
+        The report, and the files of the references that were rewritten.
 
     Raises:
         EnvironmentFault: a reference cannot be written.
     """
-    flights = _fly(selections, jobs, fly, out, progress)
+    tasks = [_task(s.loaded, seed, out) for s in selections for seed in s.seeds]
+    ends = fly_all(
+        tasks, fly=fly, open_executor=open_executor, on_end=counted(len(tasks), progress)
+    )
     results = {
-        (flight.loaded.root, flight.loaded.mission.name, flight.end.task.seed): flight.end.result
-        for flight in flights
+        (end.task.loaded.root, end.task.loaded.mission.name, end.task.seed): end.result
+        for end in ends
     }
 
-    def report(flight: Flight) -> FlightReport:
-        root, seed = flight.loaded.root, flight.end.task.seed
+    def report(end: FlightEnd) -> FlightReport:
+        root, seed = end.task.loaded.root, end.task.seed
         return judge(
-            flight.loaded,
-            flight.end,
-            flight.reference,
+            end,
+            _reference(end.task),
             lambda mission: results.get((root, mission, seed)),
             updating=update,
         )
 
-    reports = tuple(report(flight) for flight in flights)
-    return RegressReport.of(reports), _update(flights) if update else ()
+    reports = tuple(report(end) for end in ends)
+    return RegressReport.of(reports), _update(ends) if update else ()
 
 
-def _fly(
-    selections: Sequence[Selection],
-    jobs: int,
-    fly: Fly,
-    out: Path | None,
-    progress: Progress | None,
-) -> list[Flight]:
-    loaded = [selection.loaded for selection in selections for _ in selection.seeds]
-    tasks = [_task(s.loaded, seed, out) for s in selections for seed in s.seeds]
+def counted(total: int, progress: Progress | None) -> OnEnd:
+    """Calls ``progress`` with the number of flights that have ended, as each of them ends."""
     done = 0
 
     def on_end(end: FlightEnd) -> None:
         nonlocal done
         done += 1
         if progress is not None:
-            progress(done, len(tasks), end)
+            progress(done, total, end)
 
-    ends = fly_all(tasks, jobs=jobs, fly=fly, on_end=on_end)
-    return [Flight(*pair) for pair in zip(loaded, ends, strict=True)]
+    return on_end
 
 
 def _task(loaded: Loaded, seed: int, out: Path | None) -> FlightTask:
     folder = None
     if out is not None:
         folder = out / loaded.mission.name / f"{loaded.platform.name}-seed{seed}"
-    return FlightTask(loaded.mission_file, seed, folder)
+    return FlightTask(loaded, seed, out=folder)
 
 
-def _update(flights: Sequence[Flight]) -> tuple[Path, ...]:
+def _reference(task: FlightTask) -> Path:
+    """The file of a flight's reference metrics."""
+    loaded = task.loaded
+    return reference_file(loaded.root, loaded.mission.name, loaded.platform.name, task.seed)
+
+
+def _update(ends: Sequence[FlightEnd]) -> tuple[Path, ...]:
     """Rewrite the references of the flights that ended as their missions expect.
 
-    A flight that ended otherwise is no example for later ones; its old reference stays.
+    Others are no example for later flights: their old references stay.
     """
     updated = []
-    for flight in flights:
-        result = flight.end.result
-        if result is None or result.status != flight.loaded.mission.expect_status:
+    for end in ends:
+        if end.result is None or end.result.status != end.task.loaded.mission.expect_status:
             continue
-        write_reference(flight.reference, reference_of(result, flight.end.task.seed))
-        updated.append(flight.reference)
+        file = _reference(end.task)
+        write_reference(file, reference_of(end.result, end.task.seed))
+        updated.append(file)
     return tuple(updated)

@@ -1,4 +1,4 @@
-"""Which missions the regression flies, with which seeds, in a fixed order."""
+"""Selects the missions and seeds that the regression flies, in a fixed order."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ class Selection:
 
     @property
     def key(self) -> tuple[Path, str]:
-        """What tells missions apart: the campaign folder and the mission's name."""
+        """What identifies a mission: the campaign folder and the mission's name."""
         return self.loaded.root, self.loaded.mission.name
 
 
@@ -53,10 +53,10 @@ HINT = "give mission files or folders, or run it in a campaign folder (`inspect 
 
 
 def select(files: Iterable[Path]) -> list[Selection]:
-    """Load missions, and the missions that they are compared with, and say which seeds to fly.
+    """Load missions, and the missions that they are compared with, and choose the seeds.
 
-    A mission that an acceptance entry divides by (``over``) is flown with the seeds of the one
-    that asks for it, as well as with its own when it was asked for itself.
+    A mission whose metric an acceptance entry divides by (``over``) is flown with the seeds of
+    the mission that has the entry; if it was selected itself, with its own seeds as well.
 
     Raises:
         InputError: with every problem of every file; nothing has been flown.
@@ -103,9 +103,10 @@ def _load_all(files: Iterable[Path]) -> list[Loaded]:
 
 
 def _divisors(mission: Loaded, loaded: Sequence[Loaded]) -> list[Loaded]:
-    """The missions of the same campaign that ``mission`` is compared with; unknown ones are not.
+    """The missions of the same campaign that ``mission`` is compared with.
 
-    They need not be among those ``loaded``; what cannot be loaded then is somebody else's fault.
+    Those that are not among the ``loaded`` are searched for in the campaign; names that no file
+    has and files that cannot be loaded are skipped, and their checks are then not measured.
     """
     wanted = {entry.over.mission for entry in mission.mission.acceptance if entry.over is not None}
     known = {other.mission.name: other for other in loaded if other.root == mission.root}

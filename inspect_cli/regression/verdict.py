@@ -1,4 +1,4 @@
-"""What one flight came to: its checks, its changes, and why it fails."""
+"""The verdict on one flight: its checks, its changes against the reference, and why it fails."""
 
 from __future__ import annotations
 
@@ -14,23 +14,21 @@ from inspect_cli.schema.loading import Loaded
 from inspect_cli.schema.result import Check, Result
 
 
-def judge(
-    loaded: Loaded, end: FlightEnd, reference: Path, resolve: Resolve, *, updating: bool
-) -> FlightReport:
-    """Hold a flight against its mission and its reference.
+def judge(end: FlightEnd, reference: Path, resolve: Resolve, *, updating: bool) -> FlightReport:
+    """Compare a flight with its mission's acceptance and with its reference.
 
     It passes if it ended as the mission expects, every check passes, and no metric left its
     tolerance. Checks that are known failures do not fail it, but keep it from a plain ``pass``.
 
     Args:
-        loaded: the mission that was flown.
-        end: how the flight ended.
+        end: the flight with its mission, and how it ended.
         reference: the file of its reference metrics.
         resolve: finds the results of other missions at the same seed.
         updating: references are about to be rewritten, so that changes do not count.
     """
+    loaded = end.task.loaded
     if end.result is None:
-        return _report(loaded, end, "fail", (f"it could not be flown: {end.error}",), (), ())
+        return _report(end, "fail", (f"it could not be flown: {end.error}",), (), ())
     checks = answer_all(loaded.mission.acceptance, end.result.metrics, resolve)
     reasons = [*_status_reasons(loaded, end.result), *_check_reasons(checks)]
     changes, reference_reasons = _changes(end.result, reference, loaded.root)
@@ -38,7 +36,7 @@ def judge(
         reasons += reference_reasons
     known = any(check.verdict == "fail-known" for check in checks)
     verdict: FlightVerdict = "fail" if reasons else "fail-known" if known else "pass"
-    return _report(loaded, end, verdict, tuple(reasons), checks, changes)
+    return _report(end, verdict, tuple(reasons), checks, changes)
 
 
 def describe(check: Check) -> str:
@@ -57,7 +55,6 @@ def describe(check: Check) -> str:
 
 
 def _report(
-    loaded: Loaded,
     end: FlightEnd,
     verdict: FlightVerdict,
     reasons: tuple[str, ...],
@@ -65,8 +62,8 @@ def _report(
     changes: tuple[Change, ...],
 ) -> FlightReport:
     return FlightReport(
-        mission=loaded.mission.name,
-        platform=loaded.platform.name,
+        mission=end.task.loaded.mission.name,
+        platform=end.task.loaded.platform.name,
         seed=end.task.seed,
         verdict=verdict,
         status=None if end.result is None else end.result.status,

@@ -1,1 +1,1 @@
-"""Draws a Result and a RunLog as HTML and CSV. It never computes a finding."""
+"""Reports as HTML and PDF, drawn from a Result and a RunLog. No finding is computed here."""

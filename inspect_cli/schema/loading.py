@@ -109,12 +109,18 @@ def load_platform(path: Path) -> PlatformBase:
 
 
 def place_in_mission(path: Path, steps: Sequence[Step]) -> Location:
-    """Where a mission that was read, or one that it extends, states the value at ``steps``."""
-    node = _read_extended(path, campaign_root(path), ())
+    """Where a mission that was read, or one that it extends, states the value at ``steps``.
+
+    If the file has changed since or is gone, the location is less precise, but still of that file.
+    """
+    try:
+        node = _read_extended(path, campaign_root(path), ())
+    except SchemaError:
+        return Location(str(path))
     for step in steps:
         child = node.child(step)
         if child is None:
-            break  # the file has changed meanwhile
+            break
         node = child
     return node.at(join(steps))
 

@@ -5,8 +5,10 @@ from __future__ import annotations
 import math
 from typing import Annotated, Literal, Self
 
+import numpy as np
 from pydantic import AfterValidator, Field, model_validator
 
+from inspect_cli.interfaces import Posture
 from inspect_cli.schema.base import Name, NonNegative, Positive, Strict, Triple
 from inspect_cli.schema.geometry import Shape
 
@@ -31,6 +33,11 @@ class PostureModel(Strict):
     p_WB: Triple
     q_WB: Quaternion
     arm_angle_rad: tuple[float, ...] = ()
+
+    @property
+    def posture(self) -> Posture:
+        """The posture that is spelled out."""
+        return Posture(np.array(self.p_WB), np.array(self.q_WB), np.array(self.arm_angle_rad))
 
 
 class FitReport(Strict):

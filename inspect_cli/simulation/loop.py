@@ -1,7 +1,7 @@
 """The flight loop. Every tick reads top to bottom in the same order:
 
-observe → sample the due sensors → estimate → autonomy and guidance write the reference →
-control and allocation write the command → apply → record → step.
+observe → sample the due sensors, which stack and executive hear → the stack's own loops →
+the executive decides → the stack controls → apply → record → step.
 """
 
 from __future__ import annotations
@@ -12,15 +12,12 @@ from time import perf_counter
 
 import numpy as np
 
-from inspect_cli.autonomy.executive import Executive, posture_of
-from inspect_cli.guidance.local_surface import LocalSurface
-from inspect_cli.guidance.pursuit import Pursuit
-from inspect_cli.interfaces import Posture
+from inspect_cli.autonomy.executive import Executive
+from inspect_cli.interfaces import DepthImage
 from inspect_cli.log.writer import LogWriter
 from inspect_cli.records import State, SurfaceEstimate
 from inspect_cli.schema.plan import Plan, Target
 from inspect_cli.schema.positioning import Estimation
-from inspect_cli.schema.primitives import primitive_of
 from inspect_cli.schema.result import Status
 from inspect_cli.schema.truth import TruthModel
 from inspect_cli.sensing.reading import ReadingJudge
@@ -30,8 +27,6 @@ from inspect_cli.simulation.plant import Plant
 from inspect_cli.simulation.randomness import component_rng
 from inspect_cli.simulation.recorder import Recorder
 from inspect_cli.simulation.world import build_world
-from inspect_cli.spatial.arrays import Matrix, Vector
-from inspect_cli.spatial.rotations import rotate
 from inspect_cli.truth.contact import ContactTruth
 from inspect_cli.truth.disturbances import Disturbances
 from inspect_cli.truth.faults import Faults
@@ -91,24 +86,19 @@ class Flight:
             estimation,
             truth.platform.odometry_drift_mps,
         )
-        self.stack = vehicle.flight_stack(estimation)
-        believed = {surface.name: primitive_of(surface.shape) for surface in plan.surfaces}
-        self.guidance = Pursuit(vehicle.capabilities, posture_of(plan.start), believed)
-        self.surface = SurfaceEstimate.create()
-        self._capabilities = vehicle.capabilities
-        self._p_BD = np.array(platform.sensors.tof.position_B_m)
-        self._local_surface = LocalSurface(platform.sensors.tof)
+        self.stack = vehicle.flight_stack(plan, estimation)
 
         def judge(target: Target) -> ReadingJudge:
             return ReadingJudge(platform.sensors.half_cell, target.dwell_s)
 
         limit_s = 60.0 + 2.0 * plan.duration_s
-        self.executive = Executive(plan, self.guidance, judge, self.stack.estimate, limit_s)
+        behaviour = vehicle.behaviour
+        context = behaviour.context(plan, self.stack, {"half_cell": judge})
+        self.executive = Executive(behaviour, context, limit_s)
         self.recorder = Recorder(
             log,
             self.plant.state,
             self.contact.contact,
-            self.guidance.reference,
             self.stack,
             self.instruments,
             disturbances.load.record if truth.loads_depend_on_the_flight else None,
@@ -119,9 +109,9 @@ class Flight:
             "pose": pose_hz,
             "tof": rates.tof_hz,
             "mission": rates.mission_hz,
-            "guidance": rates.guidance_hz,
             "control": rates.control_hz,
             "log": rates.log_hz,
+            **self.stack.loops,
         }
         if any(target.sensor is not None for target in plan.targets):
             due["probe"] = rates.probe_hz
@@ -134,7 +124,7 @@ class Flight:
     def run(self, progress: Callable[[float], None] | None = None) -> Ending:
         """Fly to the end; ``progress`` is called with the time of flight ten times a second."""
         begun = perf_counter()
-        self.plant.place(posture_of(self.plan.start))
+        self.plant.place(self.plan.start.posture)
         t_s = 0.0
         if not self._start_stack():
             self.executive.give_up("aborted", "no pose measurement to start from")
@@ -147,7 +137,7 @@ class Flight:
             if self.executive.finished:
                 break
             self.plant.step(tick.steps_to_next)
-        self.recorder.decisions(self.executive)
+        self.recorder.decisions(self.executive.context)
         wall_s = perf_counter() - begun
         status, reason = self.executive.status, self.executive.reason
         return Ending(status, reason, t_s, wall_s, self.recorder.wall_s)
@@ -165,7 +155,7 @@ class Flight:
         due, plant, stack = tick.due, self.plant, self.stack
         state = plant.observe(tick.t_s)
         if "imu" in due and self.instruments.sample_imu(state):
-            stack.on_imu(self.instruments.imu.measurement)
+            stack.hear(self.instruments.imu.measurement)
         if "pose" in due:
             self._correct_estimate(tick.t_s, state)
         if "wall" in due:
@@ -174,18 +164,18 @@ class Flight:
             self._see_surface(tick.t_s)
         if "probe" in due:
             self._sample_probe()
-        if "guidance" in due and self.executive.watches_surface:
-            self.guidance.observe(tick.t_s, self.surface)
+        for loop in stack.loops:
+            if loop in due:
+                stack.run(loop, tick.t_s)
         if "mission" in due:
             self._decide(tick.t_s)
         if "control" in due:
-            self.guidance.write(tick.t_s)
-            stack.control(self.guidance.reference, self.executive.flying)
+            stack.control(tick.t_s)
             plant.disturb(tick.t_s)
             plant.apply(stack.command)
         if "log" in due:
             if "control" not in due:
-                self.guidance.write(tick.t_s)
+                stack.refer(tick.t_s)
             self.contact.update(state)
             self.recorder.rows(tick.t_s)
 
@@ -198,33 +188,24 @@ class Flight:
         heard = self.instruments.sample_pose(state)
         if heard and self.instruments.odometry is not None:
             self.recorder.row(self.instruments.odometry.measurement)
-        if heard and self.stack.on_pose(self.instruments.pose.measurement):
-            self.executive.heard_pose(t_s)
+        if heard and (pose := self.stack.hear(self.instruments.pose.measurement)) is not None:
+            self.executive.hear(pose)
 
     def _see_surface(self, t_s: float) -> None:
-        """Turn the depth image into a surface estimate."""
-        estimate, points_D = self.stack.estimate, self.instruments.tof.points_D
-        p_WD = estimate.p_WB + rotate(estimate.q_WB, self._p_BD)
-        p_WT, R_WT = self._believed_tool()
-        self._local_surface.update(points_D, p_WD, p_WT, R_WT, self.surface)
-        self.surface.t_s = t_s
-        self.executive.saw_surface(self.surface)
-        self.recorder.surface(self.surface, points_D, p_WD, R_WT)
+        """Have the stack turn the depth image into a surface estimate."""
+        image = DepthImage(t_s, self.instruments.tof.points_D)
+        surface = self.stack.hear(image)
+        if isinstance(surface, SurfaceEstimate):
+            self.executive.hear(surface)
+            self.recorder.surface(surface, image, *self.stack.believed("tof"))
 
     def _sample_probe(self) -> None:
         contact = self.contact.update(self.plant.state)
         probe = self.instruments.sample_probe(self.plant.state, contact)
         if probe is None:
             return
-        p_WT, _ = self._believed_tool()
-        self.executive.probe_sampled(probe, p_WT)
+        self.executive.hear(probe)
         self.recorder.row(probe)
-
-    def _believed_tool(self) -> tuple[Vector, Matrix]:
-        """(p_WT, R_WT) by the estimate, with the arm where it was asked to be."""
-        estimate, arm_angle = self.stack.estimate, self.guidance.reference.arm_angle
-        posture = Posture(estimate.p_WB, estimate.q_WB, arm_angle)
-        return self._capabilities.tool_pose(posture)
 
     def _decide(self, t_s: float) -> None:
         """The mission rate: surroundings, divergence, executive."""
@@ -233,5 +214,8 @@ class Flight:
         if diverged:
             self.executive.give_up("diverged", f"MuJoCo warned: {diverged}")
             return
-        self.executive.update(t_s)
-        self.recorder.decisions(self.executive)
+        order = self.executive.update(t_s)
+        if order is not None:
+            self.stack.enter(t_s, order.mode, order.target)
+        self.stack.armed = self.executive.armed
+        self.recorder.decisions(self.executive.context)

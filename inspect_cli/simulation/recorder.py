@@ -4,19 +4,18 @@ from __future__ import annotations
 
 from time import perf_counter
 
-from inspect_cli.autonomy.executive import Executive
-from inspect_cli.interfaces import FlightStack
+from inspect_cli.autonomy.context import Context
+from inspect_cli.interfaces import DepthImage, FlightStack
 from inspect_cli.log.writer import LogWriter
 from inspect_cli.records import (
     Record,
-    Reference,
     State,
     SurfaceEstimate,
     TrueContact,
     TrueDisturbance,
 )
 from inspect_cli.simulation.instruments import Instruments
-from inspect_cli.spatial.arrays import Matrix, Points, Vector
+from inspect_cli.spatial.arrays import Matrix, Vector
 
 POSE_S = 0.1
 """Between the poses that viewers draw."""
@@ -32,13 +31,12 @@ class Recorder:
         log: LogWriter,
         state: State,
         contact: TrueContact,
-        reference: Reference,
         stack: FlightStack,
         instruments: Instruments,
         disturbance: TrueDisturbance | None,
     ) -> None:
         self._log = log
-        self._computed: tuple[Record, ...] = (reference, stack.estimate, stack.command)
+        self._computed: tuple[Record, ...] = (stack.reference, stack.estimate, stack.command)
         if disturbance is not None:
             self._computed += (disturbance,)
         continuous = (state, contact, *self._computed, instruments.imu.measurement)
@@ -46,7 +44,7 @@ class Recorder:
         self._times = [record.views["t_s"] for record in self._computed]
         self._poses = {
             "/pose/estimate": (stack.estimate.p_WB, stack.estimate.q_WB),
-            "/pose/reference": (reference.p_WB, reference.q_WB),
+            "/pose/reference": (stack.reference.p_WB, stack.reference.q_WB),
             "/truth/pose": (state.p_WB, state.q_WB),
         }
         self._next_pose_s = 0.0
@@ -75,25 +73,25 @@ class Recorder:
         self.wall_s += perf_counter() - begun
 
     def surface(
-        self, surface: SurfaceEstimate, points_D: Points, p_WD: Vector, R_WD: Matrix
+        self, surface: SurfaceEstimate, image: DepthImage, p_WD: Vector, R_WD: Matrix
     ) -> None:
         """Log a surface estimate, and once a second the depth points behind it."""
         begun = perf_counter()
         self._log.log(surface)
         if surface.t_s >= self._next_cloud_s:
             self._next_cloud_s += CLOUD_S
-            self._log.point_cloud("/tof/points", surface.t_s, p_WD + points_D @ R_WD.T)
+            self._log.point_cloud("/tof/points", surface.t_s, p_WD + image.points_D @ R_WD.T)
         self.wall_s += perf_counter() - begun
 
-    def decisions(self, executive: Executive) -> None:
-        """Log the executive's readings and events since the last call."""
-        if not executive.readings and not executive.events:
+    def decisions(self, context: Context) -> None:
+        """Log the readings and events since the last call."""
+        if not context.readings and not context.events:
             return
         begun = perf_counter()
-        for reading in executive.readings:
+        for reading in context.readings:
             self._log.log(reading)
-        for event in executive.events:
+        for event in context.events:
             self._log.event(event.t_s, event.level, event.text)
-        executive.readings.clear()
-        executive.events.clear()
+        context.readings.clear()
+        context.events.clear()
         self.wall_s += perf_counter() - begun

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 from rich.table import Table
 from rich.text import Text
 
-from inspect_cli.reporting.published import number_of
+from inspect_cli.reporting.words.published import number_of
 
 if TYPE_CHECKING:
     from inspect_cli.schema.readings import ReadingsResult

@@ -15,7 +15,9 @@ from typing import Protocol
 
 import mujoco
 
+from inspect_cli.autonomy.modes import Behaviour
 from inspect_cli.interfaces import Capabilities, FlightStack
+from inspect_cli.schema.plan import Plan
 from inspect_cli.schema.positioning import Estimation
 from inspect_cli.schema.vehicle import PlatformBase
 from inspect_cli.spatial.arrays import Vector
@@ -70,6 +72,11 @@ class Vehicle(Protocol):
         """The nominal MuJoCo model, in free space."""
         ...
 
-    def flight_stack(self, estimation: Estimation = "external") -> FlightStack:
-        """A fresh stack of estimation and control, which gets its poses from there."""
+    @property
+    def behaviour(self) -> Behaviour:
+        """Its modes and failsafes."""
+        ...
+
+    def flight_stack(self, plan: Plan, estimation: Estimation = "external") -> FlightStack:
+        """A fresh stack of estimation, guidance and control, which gets its poses from there."""
         ...

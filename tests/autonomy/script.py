@@ -2,24 +2,28 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 
 import numpy as np
 
 from inspect_cli.autonomy.executive import Executive
-from inspect_cli.interfaces import Posture
+from inspect_cli.autonomy.modes import Behaviour
+from inspect_cli.interfaces import DepthImage, Posture
 from inspect_cli.records import (
+    Command,
     Estimate,
     InvalidReason,
-    Mode,
+    Pose,
     Probe,
     Reading,
+    Record,
     Reference,
     SurfaceEstimate,
 )
 from inspect_cli.schema.plan import Leg, LegKind, Plan, PostureModel, Target
-from inspect_cli.spatial.arrays import Vector
+from inspect_cli.spatial.arrays import Matrix, Vector
+from inspect_cli.vehicles.fully_actuated import BEHAVIOUR
 
 TICK_S = 0.02
 STANDOFF_M, PRESS_M = 0.25, 0.10
@@ -93,9 +97,7 @@ def target_is_unknown(calls: list[tuple[str, float, float]]) -> bool:
 class FakeGuidance:
     """Writes down what it is asked; arrives ``takes_s`` later, or when the test says."""
 
-    reference: Reference = field(
-        default_factory=lambda: Reference.create({"n_rotors": 0, "n_joints": 0, "n_arm": 0})
-    )
+    tracks_surface: bool = False
     takes_s: float = 1.0
     calls: list[tuple[str, float, float]] = field(default_factory=list)
     """(what, depth or height of the goal, speed)."""
@@ -136,6 +138,35 @@ class FakeGuidance:
         self.arrival_s = t_s + self.takes_s
 
 
+class FakeStack:
+    """Estimates nothing and controls nothing; what the modes need of a stack."""
+
+    def __init__(self, guidance: FakeGuidance) -> None:
+        self.guidance = guidance
+        self.estimate = Estimate.create()
+        self.reference = Reference.create()
+        self.command = Command.create()
+        self.estimate.q_WB[0] = self.reference.q_WB[0] = 1.0
+        self.armed = False
+        self.loops: Mapping[str, int] = {}
+
+    def start(self, pose: Pose) -> None: ...
+
+    def hear(self, sample: Record | DepthImage) -> Record | None:
+        return sample if isinstance(sample, Record) else None
+
+    def enter(self, t_s: float, mode: str, target: int | None) -> None: ...
+
+    def run(self, loop: str, t_s: float) -> None: ...
+
+    def refer(self, t_s: float) -> None: ...
+
+    def control(self, t_s: float) -> None: ...
+
+    def believed(self, frame: str) -> tuple[Vector, Matrix]:
+        return np.zeros(3), np.eye(3)
+
+
 @dataclass
 class FakeJudge:
     """Decides after ``takes_s``."""
@@ -169,41 +200,48 @@ class FakeJudge:
 class Script:
     """Steps an executive through time; poses and surfaces come as long as they are on."""
 
-    def __init__(self, plan: Plan | None = None) -> None:
+    def __init__(self, plan: Plan | None = None, behaviour: Behaviour = BEHAVIOUR) -> None:
         self.guidance = FakeGuidance()
+        self.stack = FakeStack(self.guidance)
         self.judges: list[FakeJudge] = []
-        self.estimate = Estimate.create()
-        self.estimate.q_WB[0] = self.guidance.reference.q_WB[0] = 1.0
+        self.estimate = self.stack.estimate
         self.poses = self.surfaces = True
         self.distance_m = 0.25
         self.blind_after_s = float("inf")
         self._seen = SurfaceEstimate.create()
         self.t_s = 0.0
-        self.executive = Executive(
-            plan or two_point_plan(), self.guidance, self._judge, self.estimate, TIME_LIMIT_S
+        self.context = behaviour.context(
+            plan or two_point_plan(), self.stack, {"half_cell": self._judge}
         )
-        self.modes: list[tuple[Mode, int]] = []
+        self.executive = Executive(behaviour, self.context, TIME_LIMIT_S)
+        self.modes: list[tuple[str, int]] = []
 
     def _judge(self, target: Target) -> FakeJudge:
         self.judges.append(FakeJudge())
         return self.judges[-1]
 
     @property
-    def mode(self) -> Mode:
-        return self.executive.mode
+    def mode(self) -> str:
+        return self.executive.mode.name
+
+    @property
+    def target(self) -> int:
+        return int(self.stack.reference.target)
 
     def step(self) -> None:
         """One period of the mission rate."""
         if self.poses:
-            self.executive.heard_pose(self.t_s)
+            pose = Pose.create()
+            pose.t_s = self.t_s
+            self.executive.hear(pose)
         if self.surfaces:
             seen = self._seen
             seen.t_s, seen.distance = self.t_s, self.distance_m
             seen.valid = float(self.t_s < self.blind_after_s)
-            self.executive.saw_surface(seen)
-        self.executive.probe_sampled(Probe.create(), np.zeros(3))
+            self.executive.hear(seen)
+        self.executive.hear(Probe.create())
         self.executive.update(self.t_s)
-        now = (self.executive.mode, self.executive.target)
+        now = (self.mode, self.target)
         if not self.modes or self.modes[-1] != now:
             self.modes.append(now)
         self.t_s += TICK_S
@@ -216,13 +254,13 @@ class Script:
         """Step until something is so; how long that took."""
         begun = self.t_s
         while not condition():
-            assert self.t_s - begun < limit_s, f"still {self.executive.mode.name}"
+            assert self.t_s - begun < limit_s, f"still {self.mode}"
             self.step()
         return self.t_s - begun
 
-    def run_to(self, mode: Mode, target: int | None = None) -> float:
+    def run_to(self, mode: str, target: int | None = None) -> float:
         """Step until a mode begins."""
-        wanted = (mode, self.executive.target if target is None else target)
+        wanted = (mode, self.target if target is None else target)
         return self.run_until(
             lambda: self.mode == mode and (target is None or self.modes[-1] == wanted)
         )

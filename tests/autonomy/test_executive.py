@@ -16,18 +16,18 @@ from script import (
     Script,
 )
 
-from inspect_cli.autonomy.executive import (
+from inspect_cli.autonomy.timing import PAUSE_S
+from inspect_cli.records import InvalidReason, SurfaceEstimate
+from inspect_cli.vehicles.fully_actuated.modes import (
     BEFORE_CONTACT_M,
-    PAUSE_S,
     SAFE_HOVER_S,
     SETTLE_S,
     STAND_S,
     TOUCHDOWN_M,
 )
-from inspect_cli.records import InvalidReason, Mode, SurfaceEstimate
 
-WATCHED = [Mode.TAKEOFF, Mode.TRANSIT, Mode.APPROACH, Mode.PRESS, Mode.RETREAT, Mode.LAND]
-NEAR = [Mode.APPROACH, Mode.PRESS, Mode.RETREAT]
+WATCHED = ["takeoff", "transit", "approach", "press", "retreat", "land"]
+NEAR = ["approach", "press", "retreat"]
 SLACK_S = 2.5 * TICK_S
 
 
@@ -38,18 +38,18 @@ def script() -> Script:
 
 def test_a_whole_flight(script: Script) -> None:
     script.run_until(lambda: script.executive.finished)
-    point = [Mode.TRANSIT, Mode.APPROACH, Mode.PRESS, Mode.RETREAT]
+    point = ["transit", "approach", "press", "retreat"]
     assert script.modes == [
-        (Mode.IDLE, -1),
-        (Mode.TAKEOFF, -1),
+        ("idle", -1),
+        ("takeoff", -1),
         *[(mode, 0) for mode in point],
         *[(mode, 1) for mode in point],
-        (Mode.TRANSIT, -1),
-        (Mode.LAND, -1),
-        (Mode.LANDED, -1),
+        ("transit", -1),
+        ("land", -1),
+        ("landed", -1),
     ]
     assert (script.executive.status, script.executive.reason) == ("completed", "")
-    assert [(r.target, r.valid) for r in script.executive.readings] == [(0.0, 1.0), (1.0, 1.0)]
+    assert [(r.target, r.valid) for r in script.context.readings] == [(0.0, 1.0), (1.0, 1.0)]
     asked = [
         ("approach A{}", -BEFORE_CONTACT_M, APPROACH_MPS),
         ("approach A{}", PRESS_M, PRESS_MPS),
@@ -67,68 +67,68 @@ def test_a_whole_flight(script: Script) -> None:
 
 
 def test_it_settles_on_the_ground_with_its_motors_off(script: Script) -> None:
-    took = script.run_to(Mode.TAKEOFF)
+    took = script.run_to("takeoff")
     assert took == pytest.approx(SETTLE_S, abs=SLACK_S)
     idle = Script()
     idle.step()
-    assert not idle.executive.flying
-    assert script.executive.flying
+    assert not idle.executive.armed
+    assert script.executive.armed
 
 
-@pytest.mark.parametrize("mode", [Mode.TAKEOFF, Mode.TRANSIT, Mode.RETREAT, Mode.LAND])
-def test_a_stretch_ends_a_pause_after_its_arrival(script: Script, mode: Mode) -> None:
+@pytest.mark.parametrize("mode", ["takeoff", "transit", "retreat", "land"])
+def test_a_stretch_ends_a_pause_after_its_arrival(script: Script, mode: str) -> None:
     script.run_to(mode)
     took = script.run_until(lambda: script.mode != mode)
     assert took == pytest.approx(script.guidance.takes_s + PAUSE_S, abs=SLACK_S)
 
 
 def test_an_arrival_that_is_put_off_starts_the_pause_anew(script: Script) -> None:
-    script.run_to(Mode.TRANSIT)
+    script.run_to("transit")
     script.run_until(lambda: script.guidance.arrived(script.t_s))
     script.run(0.5 * PAUSE_S)
     script.guidance.arrival_s = script.t_s + 3.0  # a correction
-    took = script.run_until(lambda: script.mode != Mode.TRANSIT)
+    took = script.run_until(lambda: script.mode != "transit")
     assert took == pytest.approx(3.0 + PAUSE_S, abs=SLACK_S + TICK_S)
 
 
 def test_an_approach_waits_for_a_surface_that_is_seen_from_the_standoff(script: Script) -> None:
     script.surfaces = False
-    script.run_to(Mode.APPROACH)
+    script.run_to("approach")
     script.run(1.0)
     assert script.guidance.calls[-1][0] == "go_to"  # it has not moved
-    assert not script.executive.watches_surface
+    assert not script.guidance.tracks_surface
     script.surfaces = True
     script.run(0.1)
     assert script.guidance.calls[-1][0] == "approach A1"
-    assert script.executive.watches_surface
-    took = script.run_to(Mode.PRESS)
+    assert script.guidance.tracks_surface
+    took = script.run_to("press")
     assert took == pytest.approx(script.guidance.takes_s + PAUSE_S, abs=0.1 + SLACK_S)
 
 
 def test_an_invalid_surface_is_not_seen(script: Script) -> None:
     script.surfaces = False
-    script.run_to(Mode.APPROACH)
+    script.run_to("approach")
     script.run(0.5)
     blind = SurfaceEstimate.create()
     blind.t_s = script.t_s
-    script.executive.saw_surface(blind)
+    script.executive.hear(blind)
     script.run(0.1)
-    assert not script.executive.watches_surface
+    assert not script.guidance.tracks_surface
 
 
 def test_a_press_ends_when_the_judge_has_decided_and_not_before(script: Script) -> None:
-    script.run_to(Mode.PRESS)
+    script.run_to("press")
     script.judges[-1].takes_s = 7.0
-    took = script.run_to(Mode.RETREAT)
+    took = script.run_to("retreat")
     # The dwell begins when the set-point is where it shall be.
     assert took == pytest.approx(script.guidance.takes_s + 7.0, abs=SLACK_S)
-    (reading,) = script.executive.readings
+    (reading,) = script.context.readings
     assert (reading.target, reading.t_s) == (0.0, pytest.approx(script.t_s, abs=SLACK_S))
 
 
 def test_the_probe_is_heard_only_while_pressing(script: Script) -> None:
-    script.run_to(Mode.PRESS)
-    script.run_to(Mode.RETREAT)
+    script.run_to("press")
+    script.run_to("retreat")
     (judge,) = script.judges
     assert judge.fed == pytest.approx(judge.takes_s / TICK_S, abs=3)
     fed = judge.fed
@@ -140,19 +140,19 @@ def test_surfaces_steer_only_near_them(script: Script) -> None:
     steered = set()
     while not script.executive.finished:
         script.step()
-        if script.executive.watches_surface:
+        if script.guidance.tracks_surface:
             steered.add(script.mode)
-    assert steered == {Mode.APPROACH, Mode.PRESS}
+    assert steered == {"approach", "press"}
 
 
 @pytest.mark.parametrize(("aside_m", "deep_m", "counts"), [(0.029, 0.3, True), (0.031, 0.0, False)])
 def test_a_reading_off_its_point_does_not_count(
     script: Script, aside_m: float, deep_m: float, counts: bool
 ) -> None:
-    script.run_to(Mode.PRESS)
+    script.run_to("press")
     script.judges[-1].aside_m, script.judges[-1].deep_m = aside_m, deep_m
-    script.run_to(Mode.RETREAT)
-    (reading,) = script.executive.readings
+    script.run_to("retreat")
+    (reading,) = script.context.readings
     assert reading.valid == float(counts)
     assert np.isnan(reading.potential) == (not counts)
     reason = InvalidReason.NONE if counts else InvalidReason.OFF_TARGET
@@ -160,29 +160,30 @@ def test_a_reading_off_its_point_does_not_count(
 
 
 def test_it_leans_on_the_ground_before_its_motors_stop(script: Script) -> None:
-    script.run_to(Mode.LANDED)
-    assert script.executive.flying
-    took = script.run_until(lambda: not script.executive.flying)
+    script.run_to("landed")
+    assert script.executive.armed
+    took = script.run_until(lambda: not script.executive.armed)
     assert took == pytest.approx(script.guidance.takes_s + PAUSE_S, abs=SLACK_S)
     took = script.run_until(lambda: script.executive.finished)
     assert took == pytest.approx(STAND_S, abs=SLACK_S)
 
 
 def test_the_reference_carries_mode_and_target(script: Script) -> None:
-    reference = script.guidance.reference
+    reference = script.stack.reference
     while not script.executive.finished:
         script.step()
-        assert reference.mode == float(script.executive.mode)
-        assert reference.target == float(script.executive.target)
+        assert reference.mode == float(script.executive.mode.number)
+        index = script.context.order.target
+        assert reference.target == (-1.0 if index is None else float(index))
 
 
 def test_every_mode_is_an_event(script: Script) -> None:
     script.run_until(lambda: script.executive.finished)
-    texts = [event.text for event in script.executive.events]
+    texts = [event.text for event in script.context.events]
     assert texts[:3] == ["takeoff", "transit, point A1", "approach, point A1"]
     assert texts[-1] == "landed"
-    assert {event.level for event in script.executive.events} == {"info"}
-    times = [event.t_s for event in script.executive.events]
+    assert {event.level for event in script.context.events} == {"info"}
+    times = [event.t_s for event in script.context.events]
     assert times == sorted(times)
 
 
@@ -190,15 +191,15 @@ def aborted(script: Script) -> None:
     """What every abort owes."""
     executive = script.executive
     assert executive.status == "aborted"
-    assert script.mode == Mode.HOVER
-    assert executive.target == -1
-    assert executive.flying
-    assert not executive.watches_surface
-    (error,) = [event for event in executive.events if event.level == "error"]
+    assert script.mode == "hover"
+    assert script.target == -1
+    assert executive.armed
+    assert not script.guidance.tracks_surface
+    (error,) = [event for event in script.context.events if event.level == "error"]
     assert executive.reason in error.text
     # Every point has exactly one reading, and those not judged before are invalid.
-    assert sorted(reading.target for reading in executive.readings) == [0.0, 1.0]
-    for reading in executive.readings:
+    assert sorted(reading.target for reading in script.context.readings) == [0.0, 1.0]
+    for reading in script.context.readings:
         if reading.valid:
             continue
         assert reading.reason == float(InvalidReason.ABORTED)
@@ -207,12 +208,12 @@ def aborted(script: Script) -> None:
 
 
 @pytest.mark.parametrize("mode", WATCHED)
-def test_a_lost_pose_aborts_from_every_mode(script: Script, mode: Mode) -> None:
+def test_a_lost_pose_aborts_from_every_mode(script: Script, mode: str) -> None:
     script.run_to(mode)
-    if mode == Mode.APPROACH:
-        script.run_until(lambda: script.executive.watches_surface)
+    if mode == "approach":
+        script.run_until(lambda: script.guidance.tracks_surface)
     script.poses = False
-    took = script.run_to(Mode.HOVER)
+    took = script.run_to("hover")
     assert took == pytest.approx(0.25, abs=SLACK_S)
     aborted(script)
     assert "pose" in script.executive.reason
@@ -222,15 +223,15 @@ def test_a_lost_pose_aborts_from_every_mode(script: Script, mode: Mode) -> None:
 
 @pytest.mark.parametrize("mode", WATCHED)
 def test_a_large_error_retreats_near_the_surface_and_holds_elsewhere(
-    script: Script, mode: Mode
+    script: Script, mode: str
 ) -> None:
     script.run_to(mode)
-    if mode == Mode.APPROACH:
-        script.run_until(lambda: script.executive.watches_surface)
+    if mode == "approach":
+        script.run_until(lambda: script.guidance.tracks_surface)
     # In a press and its retreat the reference may lie behind the surface by as much again.
-    allowed_m = 0.6 + (PRESS_M if mode in (Mode.PRESS, Mode.RETREAT) else 0.0)
+    allowed_m = 0.6 + (PRESS_M if mode in ("press", "retreat") else 0.0)
     script.estimate.p_WB[:] = [allowed_m + 0.02, 0.0, 0.0]
-    took = script.run_to(Mode.HOVER)
+    took = script.run_to("hover")
     assert took == pytest.approx(0.5, abs=SLACK_S)
     aborted(script)
     what, depth, _ = script.guidance.calls[-1]
@@ -238,14 +239,14 @@ def test_a_large_error_retreats_near_the_surface_and_holds_elsewhere(
     assert (what, depth) == expected
 
 
-@pytest.mark.parametrize("mode", [Mode.APPROACH, Mode.PRESS])
-def test_a_surface_that_contradicts_the_plan_near_it_retreats(script: Script, mode: Mode) -> None:
+@pytest.mark.parametrize("mode", ["approach", "press"])
+def test_a_surface_that_contradicts_the_plan_near_it_retreats(script: Script, mode: str) -> None:
     script.run_to(mode)
     script.guidance.contradicted = True
     script.guidance.takes_s = 9.0
     for judge in script.judges:
         judge.takes_s = 9.0
-    took = script.run_to(Mode.HOVER)
+    took = script.run_to("hover")
     # Half a second until the last agreement is stale, half a second of patience.
     assert took == pytest.approx(1.0, abs=SLACK_S)
     aborted(script)
@@ -254,83 +255,83 @@ def test_a_surface_that_contradicts_the_plan_near_it_retreats(script: Script, mo
 
 def test_an_approach_waits_for_a_surface_that_agrees(script: Script) -> None:
     script.guidance.contradicted = True
-    script.run_to(Mode.APPROACH)
+    script.run_to("approach")
     script.run(0.4)
-    assert not script.executive.watches_surface
+    assert not script.guidance.tracks_surface
     script.guidance.contradicted = False
     script.run(0.1)
-    assert script.executive.watches_surface
+    assert script.guidance.tracks_surface
 
 
-@pytest.mark.parametrize("mode", [Mode.APPROACH, Mode.PRESS])
-def test_a_surface_out_of_sight_near_it_retreats(script: Script, mode: Mode) -> None:
+@pytest.mark.parametrize("mode", ["approach", "press"])
+def test_a_surface_out_of_sight_near_it_retreats(script: Script, mode: str) -> None:
     script.run_to(mode)
     script.guidance.takes_s = 9.0
     for judge in script.judges:
         judge.takes_s = 9.0
     script.surfaces = False
-    took = script.run_to(Mode.HOVER)
+    took = script.run_to("hover")
     assert took == pytest.approx(0.5 + 1.5, abs=SLACK_S)
     aborted(script)
-    speed = APPROACH_MPS if mode == Mode.APPROACH else PRESS_MPS
+    speed = APPROACH_MPS if mode == "approach" else PRESS_MPS
     assert script.guidance.calls[-1] == ("approach A1", -STANDOFF_M, speed)
 
 
 def test_in_transit_the_surface_may_be_out_of_sight(script: Script) -> None:
-    script.run_to(Mode.TRANSIT)
+    script.run_to("transit")
     script.guidance.arrival_s = script.t_s + 10.0
     script.surfaces = False
     script.run(9.0)
-    assert script.mode == Mode.TRANSIT
+    assert script.mode == "transit"
 
 
 def test_a_missing_surface_is_given_up_at_the_standoff(script: Script) -> None:
     script.surfaces = False
-    script.run_to(Mode.HOVER)
+    script.run_to("hover")
     aborted(script)
-    assert script.modes[-2] == (Mode.APPROACH, 0)
+    assert script.modes[-2] == ("approach", 0)
     went = [call for call in script.guidance.calls if call[0].startswith("approach")]
     assert went == [("approach A1", -STANDOFF_M, APPROACH_MPS)]
 
 
 def test_a_reading_that_was_made_survives_the_abort(script: Script) -> None:
-    script.run_to(Mode.TRANSIT, 1)
+    script.run_to("transit", 1)
     script.poses = False
-    script.run_to(Mode.HOVER)
+    script.run_to("hover")
     aborted(script)
-    assert [(r.target, r.valid) for r in script.executive.readings] == [(0.0, 1.0), (1.0, 0.0)]
+    assert [(r.target, r.valid) for r in script.context.readings] == [(0.0, 1.0), (1.0, 0.0)]
 
 
 def test_after_an_abort_it_hovers_at_rest_and_ends(script: Script) -> None:
-    script.run_to(Mode.PRESS)
+    script.run_to("press")
     script.guidance.takes_s = 5.0  # the way back to the standoff
     script.estimate.p_WB[:] = [0.8, 0.0, 0.0]
-    script.run_to(Mode.HOVER)
+    script.run_to("hover")
     took = script.run_until(lambda: script.executive.finished)
     assert took == pytest.approx(5.0 + SAFE_HOVER_S, abs=SLACK_S)
-    assert script.modes[-1] == (Mode.HOVER, -1)
+    assert script.modes[-1] == ("hover", -1)
 
 
 def test_a_second_failure_does_not_abort_again(script: Script) -> None:
-    script.run_to(Mode.PRESS)
+    script.run_to("press")
     script.poses = False
-    script.run_to(Mode.HOVER)
+    script.run_to("hover")
     script.estimate.p_WB[:] = np.nan
     script.run(2.0)
     aborted(script)
 
 
 def test_a_nan_estimate_aborts(script: Script) -> None:
-    script.run_to(Mode.TRANSIT)
+    script.run_to("transit")
     script.estimate.p_WB[:] = np.nan
-    script.run_to(Mode.HOVER)
+    script.run_to("hover")
     aborted(script)
 
 
 def test_a_flight_that_takes_far_too_long_is_given_up(script: Script) -> None:
-    script.run_to(Mode.TRANSIT)
+    script.run_to("transit")
     script.guidance.arrival_s = 1e9
-    script.run_to(Mode.HOVER)
+    script.run_to("hover")
     assert script.t_s == pytest.approx(TIME_LIMIT_S, abs=SLACK_S)
     aborted(script)
     assert "longer" in script.executive.reason
@@ -338,14 +339,14 @@ def test_a_flight_that_takes_far_too_long_is_given_up(script: Script) -> None:
 
 
 def test_on_the_ground_there_is_no_overtime(script: Script) -> None:
-    script.run_to(Mode.LANDED)
+    script.run_to("landed")
     script.guidance.arrival_s = TIME_LIMIT_S + 5.0
     script.run_until(lambda: script.executive.finished)
     assert script.executive.status == "completed"
 
 
 def test_somebody_outside_may_end_the_run(script: Script) -> None:
-    script.run_to(Mode.PRESS)
+    script.run_to("press")
     script.executive.give_up("diverged", "the physics")
     assert script.executive.finished
     assert (script.executive.status, script.executive.reason) == ("diverged", "the physics")

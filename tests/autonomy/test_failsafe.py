@@ -6,17 +6,17 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
-from inspect_cli.autonomy.failsafe import (
+from inspect_cli.autonomy.failsafe import Failsafe, Watch
+from inspect_cli.records import Estimate, Reference
+from inspect_cli.vehicles.fully_actuated.context import FlightInputs, tracking_errors
+from inspect_cli.vehicles.fully_actuated.failsafes import (
+    BACK_OFF,
     FAILSAFES,
     FLYING,
     NEAR_SURFACE,
-    Action,
-    Failsafe,
-    FlightInputs,
-    Watch,
-    tracking_errors,
+    STOP,
 )
-from inspect_cli.records import Estimate, Mode, Reference
+from inspect_cli.vehicles.fully_actuated.modes import MODES, stop
 
 LENGTHS = {"n_rotors": 0, "n_joints": 0, "n_arm": 0}
 ROWS = {row.name: row for row in FAILSAFES}
@@ -61,8 +61,8 @@ def test_each_row_has_its_limit_and_takes_nan_for_a_violation(
     assert ROWS[name].violated(inputs(**{field: np.nan}))
 
 
-@pytest.mark.parametrize("mode", list(Mode))
-def test_each_row_watches_its_modes(mode: Mode) -> None:
+@pytest.mark.parametrize("mode", list(MODES))
+def test_each_row_watches_its_modes(mode: str) -> None:
     everything_bad = inputs(
         pose_heard_s=0.0,
         surface_seen_s=0.0,
@@ -75,16 +75,14 @@ def test_each_row_watches_its_modes(mode: Mode) -> None:
     due = set()
     for row in FAILSAFES:
         watch = Watch([row])
-        watch.check(mode, everything_bad)
-        everything_bad.t_s = 20.0
-        if watch.check(mode, everything_bad)[0] != Action.CONTINUE:
+        watch.check(mode, 10.0, everything_bad)
+        if watch.check(mode, 20.0, everything_bad) is not None:
             due.add(row.name)
-        everything_bad.t_s = 10.0
     expected = {POSE, POSITION, ATTITUDE} if mode in FLYING else set()
     expected |= {SURFACE, CONTRADICTED} if mode in NEAR_SURFACE else set()
-    expected |= {LOST} if mode == Mode.SLIDE else set()
-    expected |= {NEAR} if mode == Mode.TRANSIT else set()
-    expected |= {PUSHED} if mode in (Mode.TRANSIT, Mode.APPROACH) else set()
+    expected |= {LOST} if mode == "slide" else set()
+    expected |= {NEAR} if mode == "transit" else set()
+    expected |= {PUSHED} if mode in ("transit", "approach") else set()
     assert due == expected
 
 
@@ -107,64 +105,68 @@ def test_a_surface_ahead_must_leave_the_way_to_a_stop() -> None:
 
 
 def test_on_the_ground_and_after_an_abort_nothing_is_watched() -> None:
-    assert not FLYING & {Mode.IDLE, Mode.LANDED, Mode.HOVER}
+    assert not FLYING & {"idle", "landed", "hover"}
 
 
-def row(name: str, action: Action, patience_s: float = 0.0, error_m: float = 1.0) -> Failsafe:
-    return Failsafe(name, FLYING, lambda i: i.position_error_m > error_m, patience_s, action)
+def row(name: str, severity: int, patience_s: float = 0.0, error_m: float = 1.0) -> Failsafe:
+    return Failsafe(
+        name, FLYING, lambda i: i.position_error_m > error_m, patience_s, severity, (stop,)
+    )
+
+
+def due(watch: Watch, t_s: float, mode: str = "transit", **values: float) -> str:
+    """The name of the row that is due."""
+    found = watch.check(mode, t_s, inputs(t_s, **values))
+    return "" if found is None else found.name
 
 
 @pytest.mark.parametrize("order", [1, -1])
-def test_the_severest_action_wins_wherever_it_stands(order: int) -> None:
-    table = [row("mild", Action.RETREAT), row("severe", Action.HOVER)][::order]
-    bad = inputs(position_error_m=2.0)
-    assert Watch(table).check(Mode.TRANSIT, bad) == (Action.HOVER, "severe")
+def test_the_severest_row_wins_wherever_it_stands(order: int) -> None:
+    table = [row("mild", BACK_OFF), row("severe", STOP)][::order]
+    assert due(Watch(table), 10.0, position_error_m=2.0) == "severe"
 
 
 def test_of_equals_the_first_gives_the_reason() -> None:
-    table = [row("first", Action.RETREAT), row("second", Action.RETREAT)]
-    bad = inputs(position_error_m=2.0)
-    assert Watch(table).check(Mode.TRANSIT, bad) == (Action.RETREAT, "first")
+    table = [row("first", BACK_OFF), row("second", BACK_OFF)]
+    assert due(Watch(table), 10.0, position_error_m=2.0) == "first"
 
 
-def test_severity_is_ordered() -> None:
-    assert Action.CONTINUE < Action.RETREAT < Action.HOVER
+def test_to_stop_is_severer_than_to_back_off() -> None:
+    assert BACK_OFF < STOP
+    severities = {row.name: row.severity for row in FAILSAFES}
+    assert severities.pop(NEAR) == STOP
+    assert set(severities.values()) == {BACK_OFF}
 
 
 def test_a_violation_must_last() -> None:
-    watch = Watch([row("error", Action.HOVER, patience_s=0.5)])
-    for t_s, expected in ((1.0, 0), (1.48, 0), (1.5, 2), (1.6, 2)):
-        action, reason = watch.check(Mode.TRANSIT, inputs(t_s, position_error_m=2.0))
-        assert action == expected
-        assert reason == ("error" if expected else "")
+    watch = Watch([row("error", STOP, patience_s=0.5)])
+    for t_s, expected in ((1.0, ""), (1.48, ""), (1.5, "error"), (1.6, "error")):
+        assert due(watch, t_s, position_error_m=2.0) == expected
 
 
 def test_an_interruption_starts_the_patience_anew() -> None:
-    watch = Watch([row("error", Action.HOVER, patience_s=0.5)])
-    bad = {"position_error_m": 2.0}
-    assert watch.check(Mode.TRANSIT, inputs(1.0, **bad))[0] == Action.CONTINUE
-    assert watch.check(Mode.TRANSIT, inputs(1.4))[0] == Action.CONTINUE  # well again
-    assert watch.check(Mode.TRANSIT, inputs(1.5, **bad))[0] == Action.CONTINUE
-    assert watch.check(Mode.TRANSIT, inputs(1.99, **bad))[0] == Action.CONTINUE
-    assert watch.check(Mode.TRANSIT, inputs(2.0, **bad))[0] == Action.HOVER
+    watch = Watch([row("error", STOP, patience_s=0.5)])
+    assert due(watch, 1.0, position_error_m=2.0) == ""
+    assert due(watch, 1.4) == ""  # well again
+    assert due(watch, 1.5, position_error_m=2.0) == ""
+    assert due(watch, 1.99, position_error_m=2.0) == ""
+    assert due(watch, 2.0, position_error_m=2.0) == "error"
 
 
 def test_a_mode_that_is_not_watched_starts_the_patience_anew() -> None:
-    near = Failsafe("near", NEAR_SURFACE, lambda i: True, 0.5, Action.RETREAT)
-    watch = Watch([near])
-    assert watch.check(Mode.PRESS, inputs(1.0))[0] == Action.CONTINUE
-    assert watch.check(Mode.RETREAT, inputs(1.4))[0] == Action.CONTINUE
-    assert watch.check(Mode.APPROACH, inputs(1.6))[0] == Action.CONTINUE
-    assert watch.check(Mode.APPROACH, inputs(2.1))[0] == Action.RETREAT
+    watch = Watch([Failsafe("near", NEAR_SURFACE, lambda i: True, 0.5, BACK_OFF, (stop,))])
+    assert due(watch, 1.0, "press") == ""
+    assert due(watch, 1.4, "retreat") == ""
+    assert due(watch, 1.6, "approach") == ""
+    assert due(watch, 2.1, "approach") == "near"
 
 
 def test_two_watches_keep_their_own_time() -> None:
-    table = [row("error", Action.HOVER, patience_s=0.5)]
+    table = [row("error", STOP, patience_s=0.5)]
     first, second = Watch(table), Watch(table)
-    bad = {"position_error_m": 2.0}
-    first.check(Mode.TRANSIT, inputs(1.0, **bad))
-    assert first.check(Mode.TRANSIT, inputs(1.5, **bad))[0] == Action.HOVER
-    assert second.check(Mode.TRANSIT, inputs(1.5, **bad))[0] == Action.CONTINUE
+    assert due(first, 1.0, position_error_m=2.0) == ""
+    assert due(first, 1.5, position_error_m=2.0) == "error"
+    assert due(second, 1.5, position_error_m=2.0) == ""
 
 
 def test_tracking_errors_are_distance_and_angle() -> None:

@@ -14,9 +14,9 @@ from script import (
     two_point_plan,
 )
 
-from inspect_cli.autonomy.executive import BEFORE_CONTACT_M, PAUSE_S
-from inspect_cli.records import Mode
+from inspect_cli.autonomy.timing import PAUSE_S
 from inspect_cli.schema.plan import Following, Leg, LegKind, Plan, Stroke, Target
+from inspect_cli.vehicles.fully_actuated.modes import BEFORE_CONTACT_M
 
 HOLD_S, SETTLE_S, FOLLOW_S = 4.0, 2.0, 1.5
 SLACK_S = 2.5 * TICK_S
@@ -58,20 +58,20 @@ def script() -> Script:
 
 def test_the_whole_script(script: Script) -> None:
     script.run_until(lambda: script.executive.finished)
-    touching = [Mode.TRANSIT, Mode.APPROACH, Mode.PRESS, Mode.SLIDE, Mode.RETREAT]
+    touching = ["transit", "approach", "press", "slide", "retreat"]
     assert script.modes == [
-        (Mode.IDLE, -1),
-        (Mode.TAKEOFF, -1),
-        (Mode.TRANSIT, POSE),
-        (Mode.HOLD, POSE),
+        ("idle", -1),
+        ("takeoff", -1),
+        ("transit", POSE),
+        ("hold", POSE),
         *[(mode, STROKE) for mode in touching],
         *[(mode, FOLLOWING) for mode in touching],
-        (Mode.TRANSIT, -1),
-        (Mode.LAND, -1),
-        (Mode.LANDED, -1),
+        ("transit", -1),
+        ("land", -1),
+        ("landed", -1),
     ]
     assert script.executive.status == "completed"
-    assert script.executive.readings == []
+    assert script.context.readings == []
     assert script.judges == []
     slides = [call[0] for call in script.guidance.calls if call[0].startswith("slide")]
     assert slides == ["slide A2", "slide A3"]
@@ -86,21 +86,21 @@ def test_each_target_has_its_profile_from_the_way_there_on(script: Script) -> No
 
 
 def test_a_pose_is_held_for_its_time(script: Script) -> None:
-    script.run_to(Mode.HOLD)
-    assert script.run_until(lambda: script.mode != Mode.HOLD) == pytest.approx(HOLD_S, abs=SLACK_S)
+    script.run_to("hold")
+    assert script.run_until(lambda: script.mode != "hold") == pytest.approx(HOLD_S, abs=SLACK_S)
 
 
 @pytest.mark.parametrize(
     ("index", "mode", "takes_s"),
     [
-        (STROKE, Mode.PRESS, 1.0 + SETTLE_S),
-        (STROKE, Mode.SLIDE, 1.0 + PAUSE_S),
-        (FOLLOWING, Mode.PRESS, 1.0 + FOLLOW_S),
-        (FOLLOWING, Mode.SLIDE, 1.0 + FOLLOW_S),
+        (STROKE, "press", 1.0 + SETTLE_S),
+        (STROKE, "slide", 1.0 + PAUSE_S),
+        (FOLLOWING, "press", 1.0 + FOLLOW_S),
+        (FOLLOWING, "slide", 1.0 + FOLLOW_S),
     ],
 )
 def test_the_tool_settles_before_a_slide_and_after_a_following(
-    script: Script, index: int, mode: Mode, takes_s: float
+    script: Script, index: int, mode: str, takes_s: float
 ) -> None:
     """The scripted guidance arrives after a second."""
     script.run_to(mode, index)
@@ -112,27 +112,27 @@ def test_the_tool_settles_before_a_slide_and_after_a_following(
 def test_a_following_watches_the_surface_while_it_slides(
     script: Script, index: int, watches: bool
 ) -> None:
-    script.run_to(Mode.PRESS, index)
-    assert script.executive.watches_surface
-    script.run_to(Mode.SLIDE, index)
-    assert script.executive.watches_surface == watches
-    script.run_to(Mode.RETREAT, index)
-    assert not script.executive.watches_surface
+    script.run_to("press", index)
+    assert script.guidance.tracks_surface
+    script.run_to("slide", index)
+    assert script.guidance.tracks_surface == watches
+    script.run_to("retreat", index)
+    assert not script.guidance.tracks_surface
 
 
 def test_what_is_seen_now_is_what_a_following_approaches(script: Script) -> None:
-    script.run_to(Mode.APPROACH, FOLLOWING)
+    script.run_to("approach", FOLLOWING)
     script.run(PAUSE_S + 3 * TICK_S)
     assert script.guidance.calls[-1] == ("approach A3", -BEFORE_CONTACT_M, APPROACH_MPS)
     assert script.guidance.observed == [script.guidance.observed[-1]]
     assert script.guidance.observed[-1] == pytest.approx(script.t_s, abs=PAUSE_S)
-    script.run_to(Mode.PRESS, FOLLOWING)
+    script.run_to("press", FOLLOWING)
     assert script.guidance.calls[-1] == ("approach A3", PRESS_M, PRESS_MPS)
 
 
 def test_a_following_waits_while_the_last_image_shows_no_surface(script: Script) -> None:
     """The estimate is one record that every image overwrites."""
-    script.run_to(Mode.APPROACH, FOLLOWING)
+    script.run_to("approach", FOLLOWING)
     calls = len(script.guidance.calls)
     script.blind_after_s = script.t_s + PAUSE_S - 2 * TICK_S
     script.run(PAUSE_S + 10 * TICK_S)
@@ -145,9 +145,9 @@ def test_a_following_waits_while_the_last_image_shows_no_surface(script: Script)
 @pytest.mark.parametrize("index", [STROKE, FOLLOWING])
 def test_a_surface_lost_while_sliding_ends_in_a_retreat(script: Script, index: int) -> None:
     script.guidance.takes_s = 5.0
-    script.run_to(Mode.SLIDE, index)
+    script.run_to("slide", index)
     script.surfaces = False
-    took = script.run_to(Mode.HOVER)
+    took = script.run_to("hover")
     assert took == pytest.approx(0.5, abs=SLACK_S)
     assert script.executive.reason == "surface lost while sliding"
     assert script.guidance.calls[-1][:2] == (f"approach A{index + 1}", -STANDOFF_M)
@@ -156,30 +156,30 @@ def test_a_surface_lost_while_sliding_ends_in_a_retreat(script: Script, index: i
 @pytest.mark.parametrize("index", [STROKE, FOLLOWING])
 def test_another_surface_while_sliding_ends_in_a_retreat(script: Script, index: int) -> None:
     script.guidance.takes_s = 5.0
-    script.run_to(Mode.SLIDE, index)
+    script.run_to("slide", index)
     script.guidance.contradicted = True
-    script.run_to(Mode.HOVER)
+    script.run_to("hover")
     assert script.executive.reason == "surface contradicts the plan"
     assert script.guidance.calls[-1][:2] == (f"approach A{index + 1}", -STANDOFF_M)
 
 
 @pytest.mark.parametrize(
-    ("mode", "index"), [(Mode.HOLD, POSE), (Mode.SLIDE, STROKE), (Mode.SLIDE, FOLLOWING)]
+    ("mode", "index"), [("hold", POSE), ("slide", STROKE), ("slide", FOLLOWING)]
 )
 def test_without_poses_a_hold_stays_and_a_slide_backs_off(
-    script: Script, mode: Mode, index: int
+    script: Script, mode: str, index: int
 ) -> None:
     script.guidance.takes_s = 5.0
     script.run_to(mode, index)
     script.poses = False
-    script.run_to(Mode.HOVER)
+    script.run_to("hover")
     assert script.executive.reason == "pose measurements lost"
     what = script.guidance.calls[-1][0]
-    assert what == ("hold" if mode == Mode.HOLD else f"approach A{index + 1}")
+    assert what == ("hold" if mode == "hold" else f"approach A{index + 1}")
     # After an abort, possibly in contact, the profile stays.
     assert script.guidance.impedances[-1] != "contact_ndt"
     script.run_until(lambda: script.executive.finished)
-    assert script.executive.readings == []
+    assert script.context.readings == []
     assert script.executive.status == "aborted"
 
 
@@ -193,11 +193,11 @@ def test_a_following_that_is_far_from_its_surface_stops_where_it_is(
     """Its standoff would lead forward, or back into what nobody looked at."""
     script.guidance.takes_s = 5.0
     script.distance_m = distance_m
-    script.run_to(Mode.TRANSIT, FOLLOWING)
+    script.run_to("transit", FOLLOWING)
     script.guidance.contradicted = waits
-    script.run_to(Mode.APPROACH, FOLLOWING)
+    script.run_to("approach", FOLLOWING)
     if not waits:
         script.run(1.0)
     script.poses = False
-    script.run_to(Mode.HOVER)
+    script.run_to("hover")
     assert script.guidance.calls[-1][0] == ends

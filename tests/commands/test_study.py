@@ -226,6 +226,26 @@ def test_the_help_names_every_study(capsys: pytest.CaptureFixture[str]) -> None:
             assert f"--{factor.option}" in told
 
 
+def test_a_new_study_brings_its_options(
+    mission: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """One row in the registry: the help names its option, and the command line takes it."""
+    gain, _ = FORCE.factors
+    renamed = dataclasses.replace(gain, option="trial-gains", help="gains of a trial", name="trial")
+    columns = tuple(c for c in FORCE.columns if c.metric not in FORCE.own)
+    trial = dataclasses.replace(FORCE, factors=(renamed,), own={}, columns=columns, figures=())
+    monkeypatch.setitem(module.STUDIES, "trial", trial)
+    fly = FakeFly()
+    monkeypatch.setattr(study, "__kwdefaults__", {**study.__kwdefaults__, "fly": fly})
+    assert cli.run(["study", "--help"]) == 0
+    told = " ".join(capsys.readouterr().out.split())
+    assert "force, pitch, trial" in told
+    assert "trial: gains of a trial." in told
+    assert cli.run(["study", "trial", str(mission), "--trial-gains", "3"]) == 0
+    assert [out.name for *_, out in fly.flown] == ["trial-3"]
+    assert cli.run(["study", "force", str(mission), "--trial-gains", "3"]) == 2
+
+
 @pytest.mark.xdist_group("flights")
 def test_a_real_study_finds_the_lag(mission: Path) -> None:
     """Two gains: the faster observer errs less, each as its lag predicts.

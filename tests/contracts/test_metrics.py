@@ -5,6 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 
 import pytest
+from modes import TABLE_JSON
 
 from inspect_cli.commands.plan import plan_loaded, vehicle_of
 from inspect_cli.log.reader import RunLog
@@ -47,6 +48,7 @@ def without_channels(root: Path) -> RunLog:
         f"{name}.json": model.model_dump_json(by_alias=True).encode()
         for name, model in models.items()
     }
+    attachments["modes.json"] = TABLE_JSON
     return RunLog(Path("flight.mcap"), "interrupted", "", {}, attachments, (), ())
 
 

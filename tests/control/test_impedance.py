@@ -18,7 +18,7 @@ from inspect_cli.control.impedance import (
 )
 from inspect_cli.records import Command, Estimate, Reference
 from inspect_cli.schema.vehicle import ControlModel, ImpedanceProfile, TiltRotorPlatform
-from inspect_cli.vehicles.rigid_body import nominal_body
+from inspect_cli.vehicles.fully_actuated.rigid_body import nominal_body
 from inspect_cli.vehicles.tilt_rotor.model import build_spec, tool_transform
 
 Pitched = Callable[[float], TiltRotorPlatform]

@@ -12,7 +12,7 @@ from scipy.spatial.transform import Rotation
 from inspect_cli.control.tilt_allocation import MIN_STEERING_THRUST_N, TiltAllocation
 from inspect_cli.records import Command
 from inspect_cli.schema.vehicle import TiltRotorPlatform
-from inspect_cli.vehicles.rigid_body import nominal_body
+from inspect_cli.vehicles.fully_actuated.rigid_body import nominal_body
 from inspect_cli.vehicles.tilt_rotor.model import build_spec, group_kappa_m
 
 Pitched = Callable[[float], TiltRotorPlatform]

@@ -26,6 +26,7 @@ from inspect_cli.schema.loading import load_platform
 from inspect_cli.schema.mission import Mission
 from inspect_cli.schema.plan import Leg, Plan, PlannedSurface, PostureModel, Target
 from inspect_cli.schema.truth import TruthModel
+from inspect_cli.vehicles.fully_actuated import BEHAVIOUR
 
 LENGTHS = {"n_rotors": 12, "n_joints": 6, "n_arm": 0}
 RECORDS: tuple[type[Record], ...] = (
@@ -161,6 +162,7 @@ def attachments(root: Path) -> dict[str, bytes]:
         "mission.json": mission(),
         "platform.json": platform,
         "plan.json": plan(),
+        "modes.json": BEHAVIOUR.table,
         "truth.json": TruthModel(),
     }
     contents = {k: m.model_dump_json(by_alias=True).encode() for k, m in models.items()}

@@ -19,7 +19,7 @@ from inspect_cli.log.reader import read_log
 from inspect_cli.log.writer import LogWriter
 from inspect_cli.records import Probe, State
 
-NEEDED = {"mission.json", "platform.json", "plan.json"}
+NEEDED = {"mission.json", "platform.json", "plan.json", "modes.json"}
 RECORDS = (State, Probe)
 DURATION_S = 0.35
 CHUNK_S = 0.05

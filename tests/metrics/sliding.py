@@ -10,10 +10,11 @@ from __future__ import annotations
 from typing import Any
 
 import numpy as np
+from modes import Mode
 from scipy.spatial.transform import Rotation
 from synthetic import LENGTHS, WALL_X_M, SyntheticFlight, nine_points
 
-from inspect_cli.records import Mode, Reference, State, TrueContact
+from inspect_cli.records import Reference, State, TrueContact
 from inspect_cli.schema.plan import Following, Stroke
 from inspect_cli.spatial.arrays import Vector
 

@@ -12,12 +12,12 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+from modes import TABLE_JSON, Mode
 
 from inspect_cli.log.reader import RunLog
 from inspect_cli.records import (
     Command,
     Estimate,
-    Mode,
     Reading,
     Record,
     Reference,
@@ -91,6 +91,7 @@ class SyntheticFlight:
             "mission.json": self.mission.model_dump_json(by_alias=True).encode(),
             "platform.json": self.platform.model_dump_json(by_alias=True).encode(),
             "plan.json": self.plan.model_dump_json(by_alias=True).encode(),
+            "modes.json": TABLE_JSON,
             "run.json": json.dumps(run).encode(),
         }
         return RunLog(

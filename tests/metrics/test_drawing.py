@@ -6,13 +6,14 @@ import math
 
 import numpy as np
 import pytest
+from modes import Mode
 from sliding import HZ, WAY_M, moving, rows_of, strokes, touched
 from synthetic import SyntheticFlight, nine_points
 
 from inspect_cli.metrics.drawing import repeats
 from inspect_cli.metrics.evaluate import evaluate
 from inspect_cli.metrics.flight import Flight
-from inspect_cli.records import Mode, Reference, State, TrueContact
+from inspect_cli.records import Reference, State, TrueContact
 from inspect_cli.schema.result import Metric
 
 

@@ -4,13 +4,14 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
+from modes import Mode
 from synthetic import SyntheticFlight, nine_points
 
 from inspect_cli.commands.plan import vehicle_of
 from inspect_cli.interfaces import at_origin
 from inspect_cli.metrics.energy import electrical_power_w, shaft_power_w
 from inspect_cli.metrics.evaluate import evaluate
-from inspect_cli.records import Mode, Reference, State
+from inspect_cli.records import Reference, State
 from inspect_cli.schema.loading import load_mission
 from inspect_cli.schema.vehicle import RotorDrive
 

@@ -7,6 +7,7 @@ import math
 import numpy as np
 import pytest
 import synthetic
+from modes import Mode
 from scipy.spatial.transform import Rotation
 from synthetic import SyntheticFlight, nine_points
 
@@ -16,7 +17,6 @@ from inspect_cli.records import (
     Command,
     Estimate,
     InvalidReason,
-    Mode,
     Reading,
     Reference,
     State,

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
+from modes import Mode
 from scipy.spatial.transform import Rotation
 from synthetic import SyntheticFlight, nine_points
 
@@ -13,7 +14,7 @@ from inspect_cli.metrics.flight import Flight
 from inspect_cli.metrics.force_sensor import low_pass
 from inspect_cli.metrics.geometry import rotation_vectors, turned_back_by, turned_by
 from inspect_cli.metrics.pose_error import turned_frames
-from inspect_cli.records import Estimate, Mode, Reference, State, WallForce
+from inspect_cli.records import Estimate, Reference, State, WallForce
 
 RATE = 800.0
 MISALIGNMENT = (0.06, -0.05, 0.01)

@@ -6,12 +6,13 @@ import math
 
 import numpy as np
 import pytest
+from modes import Mode
 from scipy.spatial.transform import Rotation
 from sliding import HZ, LEVEL, MOVE_S, SPEED_MPS, WAY_M, following, moving, rows_of, touched
 from synthetic import SyntheticFlight, nine_points
 
 from inspect_cli.metrics.evaluate import evaluate
-from inspect_cli.records import Mode, Reference, State, TrueContact
+from inspect_cli.records import Reference, State, TrueContact
 from inspect_cli.schema.result import Metric
 
 TICK_M = SPEED_MPS / HZ

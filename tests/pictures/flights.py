@@ -6,10 +6,11 @@ import json
 from pathlib import Path
 
 import numpy as np
+from modes import TABLE_JSON, Mode
 
 from inspect_cli.log.reader import RunLog, read_log
 from inspect_cli.log.writer import LogWriter
-from inspect_cli.records import Command, Estimate, Mode, Reading, Reference, State
+from inspect_cli.records import Command, Estimate, Reading, Reference, State
 from inspect_cli.schema.geometry import CylinderShape, PlaneShape, Shape, SphereShape
 from inspect_cli.schema.loading import load_platform
 from inspect_cli.schema.mission import Mission
@@ -133,6 +134,7 @@ def write_flight(
         for name, model in contents.items():
             content = model.model_dump_json(by_alias=True).encode()
             log.attach(name, "application/json", content)
+        log.attach("modes.json", "application/json", TABLE_JSON)
         log.attach("run.json", "application/json", json.dumps({"seed": 1}).encode())
         row, reference, command, reading = (kind.create(LENGTHS) for kind in kinds)
         taken = 0

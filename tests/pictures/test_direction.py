@@ -5,18 +5,18 @@ from __future__ import annotations
 import flights
 import numpy as np
 import pytest
+from modes import Mode
 from PIL import Image
 
 from inspect_cli.commands.pictures import mark_styles
 from inspect_cli.log.reader import RunLog
 from inspect_cli.pictures.direction import direct
 from inspect_cli.pictures.lettering import lettered, png_of
-from inspect_cli.pictures.motion import Motion
+from inspect_cli.pictures.render import render_pictures
 from inspect_cli.pictures.script import LegendEntry, load_script, save_script
-from inspect_cli.pictures.stage import slab
-from inspect_cli.pictures.take import take_pictures
-from inspect_cli.pictures.views import framed, in_frame
-from inspect_cli.records import Mode
+from inspect_cli.scene.motion import Motion
+from inspect_cli.scene.scene_model import slab
+from inspect_cli.scene.views import framed, in_frame
 from inspect_cli.schema.geometry import Shape
 from inspect_cli.schema.primitives import primitive_of
 from inspect_cli.spatial.primitives import project
@@ -113,7 +113,7 @@ def test_a_diverged_flight_is_shown_until_then(root, tmp_path) -> None:
 
 def test_a_flight_without_poses_has_a_note(root, tmp_path) -> None:
     log = flights.write_flight(tmp_path / "flight.mcap", root, flights.plan(), diverges_s=0.0)
-    pictures = take_pictures(log, flights.result(), STYLES)
+    pictures = render_pictures(log, flights.result(), STYLES)
     assert pictures.note == "No pictures: the log holds no poses of the vehicle to draw."
 
 

@@ -15,10 +15,10 @@ import pytest
 from PIL import Image
 
 from inspect_cli.commands.pictures import mark_styles
-from inspect_cli.pictures import take
+from inspect_cli.pictures import render
+from inspect_cli.pictures.render import Pictures, render_pictures
 from inspect_cli.pictures.script import FILM_PX, FPS, SCENE_PX
-from inspect_cli.pictures.take import Pictures, take_pictures
-from inspect_cli.reporting.palette import ASTM_STYLES
+from inspect_cli.reporting.figures.palette import ASTM_STYLES
 
 pytestmark = pytest.mark.xdist_group("pictures")  # one rendering for all
 
@@ -49,7 +49,7 @@ def pixels_near(image: np.ndarray, colour: str) -> int:
 def taken(renderer: None, root: Path, tmp_path_factory: pytest.TempPathFactory) -> Taken:
     file = tmp_path_factory.mktemp("flight") / "flight.mcap"
     log = flights.write_flight(file, root, flights.plan())
-    pictures = take_pictures(log, flights.result(), STYLES)
+    pictures = render_pictures(log, flights.result(), STYLES)
     assert pictures.note == ""
     scene = np.asarray(Image.open(io.BytesIO(pictures.scene_png)))
     return Taken(log, pictures, scene, frames_of(pictures.film_mp4))
@@ -103,7 +103,7 @@ def test_captions_say_whose_motion_is_shown(taken: Taken) -> None:
 
 
 def test_the_same_log_gives_the_same_bytes(taken: Taken) -> None:
-    again = take_pictures(taken.log, flights.result(), STYLES)
+    again = render_pictures(taken.log, flights.result(), STYLES)
     assert again == taken.pictures
 
 
@@ -112,7 +112,7 @@ def test_a_real_flight_is_drawn_from_its_estimate(
 ) -> None:
     file = tmp_path / "flight.mcap"
     log = flights.write_flight(file, root, flights.plan(flights.SOFFIT), truth=False)
-    pictures = take_pictures(log, flights.result(invalid=1), STYLES, "sortie 1 of 2")
+    pictures = render_pictures(log, flights.result(invalid=1), STYLES, "sortie 1 of 2")
     assert pictures.note == ""
     assert "the vehicle's own estimate" in pictures.film_caption
     assert "sortie 1 of 2" in pictures.scene_caption
@@ -127,7 +127,7 @@ def test_without_a_driver_a_sentence_says_so(
 ) -> None:
     log = flights.write_flight(tmp_path / "flight.mcap", root, flights.plan())
     monkeypatch.setenv("MUJOCO_GL", asked)
-    pictures = take_pictures(log, flights.result(), STYLES)
+    pictures = render_pictures(log, flights.result(), STYLES)
     assert (pictures.scene_png, pictures.film_mp4) == (None, None)
     assert pictures.note.startswith("No pictures: the renderer failed (")
     assert said in pictures.note
@@ -139,15 +139,15 @@ def test_what_does_not_end_is_ended(
     root: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     log = flights.write_flight(tmp_path / "flight.mcap", root, flights.plan())
-    monkeypatch.setattr(take, "DARKROOM", "this")  # any module that does no rendering
+    monkeypatch.setattr(render, "RENDER_PROCESS", "this")  # any module that does no rendering
     slow = "import time; time.sleep(60)"
     run = subprocess.run
 
     def hanging(command: list[str], **options: object) -> object:
         return run([sys.executable, "-c", slow], **options)
 
-    monkeypatch.setattr(take.subprocess, "run", hanging)
-    pictures = take_pictures(log, flights.result(), STYLES, time_limit_s=0.2)
+    monkeypatch.setattr(render.subprocess, "run", hanging)
+    pictures = render_pictures(log, flights.result(), STYLES, time_limit_s=0.2)
     assert pictures == Pictures(
         note="No pictures: rendering took longer than 0.2 s; 'inspect doctor' says what is missing."
     )
@@ -163,8 +163,8 @@ def test_a_crash_is_a_sentence(root: Path, tmp_path: Path, monkeypatch: pytest.M
         (Path(command[-1]) / "film.mp4").write_bytes(b"half a film")
         return run([sys.executable, "-c", "import os; os.kill(os.getpid(), 11)"], **options)
 
-    monkeypatch.setattr(take.subprocess, "run", crashing)
-    pictures = take_pictures(log, flights.result(), STYLES)
+    monkeypatch.setattr(render.subprocess, "run", crashing)
+    pictures = render_pictures(log, flights.result(), STYLES)
     assert pictures.scene_png == b"scene"
     assert pictures.film_mp4 is None
     assert pictures.note.startswith("No film: the renderer was ended by signal 11")

@@ -8,7 +8,7 @@ import pytest
 from inspect_cli.commands import pictures as module
 from inspect_cli.commands.pictures import pictured
 from inspect_cli.log.reader import read_log
-from inspect_cli.pictures.take import Pictures
+from inspect_cli.pictures.render import Pictures
 
 
 @pytest.fixture
@@ -19,7 +19,7 @@ def log(root, tmp_path):
 def test_pictures_are_written_beside_the_page(log, tmp_path, monkeypatch) -> None:
     both = Pictures(b"png", "a scene", b"mp4", "a film")
     told = []
-    monkeypatch.setattr(module, "take_pictures", lambda *given: told.append(given[-1]) or both)
+    monkeypatch.setattr(module, "render_pictures", lambda *given: told.append(given[-1]) or both)
     assert (
         pictured(log, flights.result(), tmp_path, "en", wanted=True, flight="sortie 1 of 3") == both
     )
@@ -33,7 +33,7 @@ def test_a_folder_keeps_no_pictures_of_another_flight(log, tmp_path, monkeypatch
     for name in ("scene.png", "film.mp4"):
         (tmp_path / name).write_bytes(b"old")
     none = Pictures(note="No pictures: no driver.")
-    monkeypatch.setattr(module, "take_pictures", lambda *given: none)
+    monkeypatch.setattr(module, "render_pictures", lambda *given: none)
     assert pictured(log, flights.result(), tmp_path, "en", wanted=wanted) == (
         none if wanted else None
     )

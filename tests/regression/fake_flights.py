@@ -16,6 +16,9 @@ from typing import Any
 import yaml
 
 from inspect_cli.errors import InfeasibleError, Problem
+from inspect_cli.schema.coverage import CoveragePlan
+from inspect_cli.schema.loading import Loaded
+from inspect_cli.schema.plan import Plan
 from inspect_cli.schema.result import Metric, Result
 
 USUAL = {"contact.force_mean_n": 1.8, "contact.points_valid": 9.0, "contact.force_peak_n": 2.5}
@@ -33,11 +36,10 @@ class FakeFlown:
 
 
 def fly(
-    mission: Path, *, seed: int | None = None, platform: Path | None = None, out: Path | None = None
+    loaded: Loaded, plan: Plan | CoveragePlan | None = None, *, seed: int, out: Path | None = None
 ) -> FakeFlown:
-    """What ``commands.fly.fly`` is to the regression."""
-    root = mission.parent.parent
-    name = yaml.safe_load(mission.read_text())["name"]
+    """What ``commands.fly.fly_loaded`` is to the regression."""
+    root, name = loaded.root, loaded.mission.name
     told = json.loads((root / "fake.json").read_text()).get(name, {})
     with (root / "flown.txt").open("a") as file:
         file.write(f"{name} {seed} {out}\n")

@@ -13,9 +13,9 @@ from playwright.sync_api import Browser, sync_playwright
 from report_pages import Page, Reported
 
 from inspect_cli.commands.delivery import Wanted, deliver
-from inspect_cli.commands.evaluating import evaluated_points
-from inspect_cli.metrics.evaluate import evaluate
-from inspect_cli.reporting.report import report_document
+from inspect_cli.commands.surface_maps import with_maps
+from inspect_cli.metrics.evaluate import evaluate_with_arrays
+from inspect_cli.reporting.documents.flight import report_document
 
 
 @pytest.fixture
@@ -24,8 +24,9 @@ def report(tmp_path: Path) -> Callable[[Flight], Reported]:
 
     def write(flight: Flight) -> Reported:
         log = flight.log()
-        result = evaluate(log)
-        document = report_document(log, result, log.plan(), evaluated_points(result.points, log))
+        evaluation = evaluate_with_arrays(log)
+        result = evaluation.result
+        document = report_document(log, result, log.plan(), with_maps(evaluation.assessed))
         path = deliver(tmp_path, document, Wanted())
         return Reported(flight, result, path, Page(path.read_text(encoding="utf-8")))
 

@@ -8,14 +8,13 @@ from pathlib import Path
 from example_flights import Flight, spoil
 from experiment_flights import drawing, force_evaluation, hold, servoing
 
-from inspect_cli.commands.evaluating import evaluated_points
 from inspect_cli.commands.study import STUDIES
-from inspect_cli.metrics.evaluate import evaluate
+from inspect_cli.commands.surface_maps import with_maps
+from inspect_cli.metrics.evaluate import evaluate_with_arrays
 from inspect_cli.records import InvalidReason, Reading
-from inspect_cli.reporting.content import Document
-from inspect_cli.reporting.report import report_document
-from inspect_cli.reporting.study import study_document
-from inspect_cli.reporting.survey import survey_document
+from inspect_cli.reporting.content.blocks import Document
+from inspect_cli.reporting.documents.flight import report_document, survey_document
+from inspect_cli.reporting.studies.document import study_document
 from inspect_cli.schema.coverage import CoveragePlan, Skipped, Sortie
 from inspect_cli.schema.plan import Plan
 from inspect_cli.schema.result import Metric
@@ -34,8 +33,9 @@ ACCEPTANCE = (
 def flown(flight: Flight) -> Document:
     """The report of a flight."""
     log = flight.log()
-    result = evaluate(log)
-    evaluated = evaluated_points(result.points, log)
+    evaluation = evaluate_with_arrays(log)
+    result = evaluation.result
+    evaluated = with_maps(evaluation.assessed)
     return report_document(log, result, flight.plan, evaluated)
 
 
@@ -52,9 +52,10 @@ def coverage(plan: Plan) -> CoveragePlan:
 def surveyed(flight: Flight) -> Document:
     """The report of a survey of which the second sortie was aborted."""
     log = flight.log()
-    result = evaluate(log)
+    evaluation = evaluate_with_arrays(log)
+    result = evaluation.result
     late = result.model_copy(update={"status": "aborted", "status_reason": "das Seil riss"})
-    evaluated = evaluated_points(result.points, log)
+    evaluated = with_maps(evaluation.assessed)
     survey = coverage(flight.plan)
     return survey_document(log, result, [result, late], survey, flight.plan, evaluated)
 

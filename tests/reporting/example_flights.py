@@ -13,6 +13,7 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+from modes import TABLE_JSON, Mode
 
 from inspect_cli.log.foxglove import Cloud, Event
 from inspect_cli.log.reader import RunLog
@@ -20,7 +21,6 @@ from inspect_cli.records import (
     Command,
     Estimate,
     InvalidReason,
-    Mode,
     Probe,
     Reading,
     Record,
@@ -85,6 +85,7 @@ class Flight:
             "mission.json": self.mission.model_dump_json(by_alias=True).encode(),
             "platform.json": self.platform.model_dump_json(by_alias=True).encode(),
             "plan.json": self.plan.model_dump_json(by_alias=True).encode(),
+            "modes.json": TABLE_JSON,
             "run.json": json.dumps(self.run).encode(),
         }
         if self.truth is not None:

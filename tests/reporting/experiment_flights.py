@@ -12,11 +12,11 @@ from typing import Any
 
 import numpy as np
 from example_flights import ARM_M, FORCE_N, HZ, MIDDLE_Z_M, PRESS_M, WALL_X_M, Flight, survey
+from modes import Mode
 
 from inspect_cli.records import (
     WALL_SAMPLES,
     Estimate,
-    Mode,
     Odometry,
     Probe,
     Reading,

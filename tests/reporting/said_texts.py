@@ -10,7 +10,7 @@ from pathlib import Path
 from inspect_cli.assessment.classes import COMBINED_RULE
 from inspect_cli.commands.study import STUDIES
 from inspect_cli.metrics.catalogue import METRICS
-from inspect_cli.reporting.published import PUBLISHED
+from inspect_cli.reporting.words.published import PUBLISHED
 
 Key = tuple[str, str]
 """The English, and the English of many; empty where nothing is counted."""

@@ -10,9 +10,9 @@ from numpy.typing import ArrayLike
 from inspect_cli.assessment.assess import assess
 from inspect_cli.assessment.classes import astm_class, combined_verdict
 from inspect_cli.assessment.readings import Readings
-from inspect_cli.commands.evaluating import mapped
-from inspect_cli.reporting.evaluated import Evaluated
-from inspect_cli.reporting.points import ReadPoint
+from inspect_cli.commands.surface_maps import with_map
+from inspect_cli.reporting.half_cell.points import ReadPoint
+from inspect_cli.reporting.half_cell.surface_findings import SurfaceFindings
 from inspect_cli.schema.assessment import Basis
 from inspect_cli.schema.result import PointResult
 
@@ -24,7 +24,7 @@ def surveyed(
     *,
     surface: str = "deck",
     basis: Basis | None = None,
-) -> Evaluated:
+) -> SurfaceFindings:
     """Readings labelled 1, 2, … of a survey from a file."""
     mv = np.asarray(potential_mv, dtype=np.float64).reshape(-1)
     n = len(mv)
@@ -36,10 +36,10 @@ def surveyed(
         resistivity_ohm_m=rho.reshape(-1).astype(np.float64),
         measurement_sd_v=np.full(n, 0.002),
     )
-    return mapped(assess(surface, readings, basis=basis))
+    return with_map(assess(surface, readings, basis=basis))
 
 
-def points_of(evaluated: Evaluated) -> list[ReadPoint]:
+def points_of(evaluated: SurfaceFindings) -> list[ReadPoint]:
     """The readings one by one, as a survey from a file has them: without targets."""
     readings = evaluated.assessed.readings
     rows: Sequence[tuple[str, list[float], float, float]] = list(

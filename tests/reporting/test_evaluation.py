@@ -10,8 +10,9 @@ from report_pages import Page, decoded, trace
 from surveyed_points import points_of, surveyed
 
 from inspect_cli.assessment.electrodes import basis_of
-from inspect_cli.pictures.take import Pictures
-from inspect_cli.reporting.content import (
+from inspect_cli.pictures.render import Pictures
+from inspect_cli.reporting.chapters.pictures import caption, picture_blocks
+from inspect_cli.reporting.content.blocks import (
     Block,
     Column,
     Cover,
@@ -24,21 +25,20 @@ from inspect_cli.reporting.content import (
     Section,
     Table,
 )
-from inspect_cli.reporting.evaluated import Evaluated
-from inspect_cli.reporting.evaluation import evaluation_blocks
-from inspect_cli.reporting.evaluation_basis import temperature_caveats, uncertainty_blocks
-from inspect_cli.reporting.evaluation_places import gradient_blocks
-from inspect_cli.reporting.evaluation_points import sureness_of
-from inspect_cli.reporting.figure import Figure
-from inspect_cli.reporting.html import html
-from inspect_cli.reporting.language import language
-from inspect_cli.reporting.map_marks import MOST_MARKERS
-from inspect_cli.reporting.naming import named
-from inspect_cli.reporting.pictures import caption, pictures_sections
-from inspect_cli.reporting.plots import draw
-from inspect_cli.reporting.points import ReadPoint
-from inspect_cli.reporting.summary import findings, reading_boxes
-from inspect_cli.reporting.text import Said
+from inspect_cli.reporting.figures.figure import Figure
+from inspect_cli.reporting.half_cell.basis import temperature_caveats, uncertainty_blocks
+from inspect_cli.reporting.half_cell.evaluation import evaluation_blocks
+from inspect_cli.reporting.half_cell.map_marks import MOST_MARKERS
+from inspect_cli.reporting.half_cell.minima import gradient_blocks
+from inspect_cli.reporting.half_cell.point_table import sureness_of
+from inspect_cli.reporting.half_cell.points import ReadPoint
+from inspect_cli.reporting.half_cell.readings_text import findings, reading_boxes
+from inspect_cli.reporting.half_cell.surface_findings import SurfaceFindings
+from inspect_cli.reporting.paper.plots import draw
+from inspect_cli.reporting.screen.html import html
+from inspect_cli.reporting.words.language import language
+from inspect_cli.reporting.words.naming import named
+from inspect_cli.reporting.words.text import Said
 from inspect_cli.schema.scoring import Confusion, ConfusionRow, Rule, Scoring, SurfaceScoring
 
 ENGLISH, GERMAN = language("en"), language("de")
@@ -50,7 +50,7 @@ def lattice(columns: int, rows: int) -> np.ndarray:
     return np.column_stack([u.ravel(), v.ravel()])
 
 
-def two_populations(columns: int, rows: int, *, seed: int = 1) -> Evaluated:
+def two_populations(columns: int, rows: int, *, seed: int = 1) -> SurfaceFindings:
     """Passive concrete with a patch of corroding steel in a corner, and a missing reading."""
     uv, rng = lattice(columns, rows), np.random.default_rng(seed)
     patch = (uv[:, 0] < 0.3 * uv[:, 0].max()) & (uv[:, 1] < 0.5 * uv[:, 1].max())
@@ -61,12 +61,14 @@ def two_populations(columns: int, rows: int, *, seed: int = 1) -> Evaluated:
 
 
 @pytest.fixture(scope="module")
-def deck() -> Evaluated:
+def deck() -> SurfaceFindings:
     return two_populations(16, 10)
 
 
 def blocks_of(
-    evaluated: Evaluated, scoring: Scoring | None = None, points: Sequence[ReadPoint] | None = None
+    evaluated: SurfaceFindings,
+    scoring: Scoring | None = None,
+    points: Sequence[ReadPoint] | None = None,
 ) -> list[Block]:
     given = points_of(evaluated) if points is None else points
     return evaluation_blocks([evaluated], given, scoring)
@@ -99,7 +101,7 @@ def as_number(text: str) -> float:
     return float(text.replace("\u2212", "-").replace("\u202f", "").removesuffix(" %"))
 
 
-def test_tables_of_classes_hold_the_assessment(deck: Evaluated) -> None:
+def test_tables_of_classes_hold_the_assessment(deck: SurfaceFindings) -> None:
     blocks, summary = blocks_of(deck), deck.assessed.summary
     rows = table_of(blocks, "Classes of ASTM C876")
     for share, row in zip(summary.astm, rows, strict=False):
@@ -122,7 +124,7 @@ def test_tables_of_classes_hold_the_assessment(deck: Evaluated) -> None:
     assert [as_number(row[-1]) for row in crossed] == [share.count for share in summary.astm]
 
 
-def test_tables_of_the_distribution_hold_the_assessment(deck: Evaluated) -> None:
+def test_tables_of_the_distribution_hold_the_assessment(deck: SurfaceFindings) -> None:
     blocks, summary = blocks_of(deck), deck.assessed.summary
     potential, mixture = summary.potential, summary.mixture
     assert potential is not None
@@ -144,7 +146,7 @@ def test_tables_of_the_distribution_hold_the_assessment(deck: Evaluated) -> None
     ]
 
 
-def test_tables_of_places_hold_the_assessment(deck: Evaluated) -> None:
+def test_tables_of_places_hold_the_assessment(deck: SurfaceFindings) -> None:
     blocks, summary = blocks_of(deck), deck.assessed.summary
     minima = table_of(blocks, "Negative minima")
     assert [row[0] for row in minima] == [m.label for m in summary.gradient.steepest]
@@ -158,7 +160,7 @@ def test_tables_of_places_hold_the_assessment(deck: Evaluated) -> None:
     assert len(proposals) == min(20, summary.refinement.total) > 0
 
 
-def test_the_points_table_has_how_sure_each_reading_is(deck: Evaluated) -> None:
+def test_the_points_table_has_how_sure_each_reading_is(deck: SurfaceFindings) -> None:
     points = points_of(deck)
     sure = sureness_of(points, [deck])
     assert len(sure) == deck.assessed.summary.valid
@@ -203,7 +205,7 @@ def test_readings_of_a_place_that_differ_are_told(
     assert "an der Stelle von Punkt 13 weichen um 260 mV" in GERMAN.plain(told)
 
 
-def test_how_deep_a_minimum_has_to_be_is_told(deck: Evaluated) -> None:
+def test_how_deep_a_minimum_has_to_be_is_told(deck: SurfaceFindings) -> None:
     found = deck.assessed.summary.gradient
     assert found.scatter_mv is not None
     told = [b.text for b in gradient_blocks(found) if isinstance(b, Paragraph)]
@@ -219,7 +221,7 @@ def test_the_conversion_has_a_row_of_its_own() -> None:
         assert sum(row == ["conversion to CSE", "2.9"] for row in table) == rows
 
 
-def test_the_map_is_the_kriged_one(deck: Evaluated) -> None:
+def test_the_map_is_the_kriged_one(deck: SurfaceFindings) -> None:
     figure = figures_of(blocks_of(deck))["map-1"]
     field = next(t for t in figure.traces if t["type"] == "contour")
     z = np.array([[np.nan if v is None else v for v in row] for row in field["z"]])
@@ -240,7 +242,7 @@ def test_the_map_is_the_kriged_one(deck: Evaluated) -> None:
     assert figure.layout["yaxis"]["scaleanchor"] == "x"
 
 
-def test_signs_stand_where_the_assessment_says(deck: Evaluated) -> None:
+def test_signs_stand_where_the_assessment_says(deck: SurfaceFindings) -> None:
     figure = figures_of(blocks_of(deck))["map-1"]
     by_symbol = {t["marker"]["symbol"]: t for t in figure.traces if "symbol" in t.get("marker", {})}
     minima, steps = deck.assessed.minima, deck.assessed.steps
@@ -253,7 +255,7 @@ def test_signs_stand_where_the_assessment_says(deck: Evaluated) -> None:
     assert "open circuit" in ENGLISH.plain(by_symbol["x-thin"]["customdata"][0])
 
 
-def test_the_mixture_is_drawn_as_it_was_fitted(deck: Evaluated) -> None:
+def test_the_mixture_is_drawn_as_it_was_fitted(deck: SurfaceFindings) -> None:
     figures, mixture = figures_of(blocks_of(deck)), deck.assessed.summary.mixture
     assert mixture.active is not None
     assert mixture.threshold_mv is not None
@@ -276,7 +278,7 @@ def _shoelace(x: np.ndarray, y: np.ndarray) -> float:
     return 0.5 * float(np.sum(x[:-1] * y[1:] - x[1:] * y[:-1]))
 
 
-def test_every_figure_can_be_drawn_on_paper(deck: Evaluated) -> None:
+def test_every_figure_can_be_drawn_on_paper(deck: SurfaceFindings) -> None:
     figures = figures_of(blocks_of(deck))
     assert list(figures) == ["map-1", "error-1", "cumulative-1", "histogram-1", "resistivity-1"]
     for figure in figures.values():
@@ -355,7 +357,7 @@ def test_labels_are_named_as_far_as_one_reads() -> None:
     assert GERMAN.plain(named([str(k) for k in range(1, 31)])).endswith("10 und 20 weitere")
 
 
-def test_findings_tell_areas_gradients_and_populations(deck: Evaluated) -> None:
+def test_findings_tell_areas_gradients_and_populations(deck: SurfaceFindings) -> None:
     text = " ".join(ENGLISH.plain(t) for t in findings(points_of(deck), [deck]))
     summary = deck.assessed.summary
     assert f"m² of the {summary.area_m2:.2f} m² that were measured" in text
@@ -409,7 +411,7 @@ def matrix(rule: Rule, names: Sequence[str]) -> Confusion:
     return Confusion(rule=rule, rows=tuple(rows))
 
 
-def test_scoring_is_told_in_areas_and_points(deck: Evaluated) -> None:
+def test_scoring_is_told_in_areas_and_points(deck: SurfaceFindings) -> None:
     scoring = Scoring(
         surfaces=(
             SurfaceScoring(
@@ -455,24 +457,23 @@ def test_pictures_are_told_in_every_language() -> None:
     assert german.endswith("Das Protokoll brach ab.")
     film = "X: 60 s of flight, shown 4.3 times as fast. Rendered from the log. Poses are the"
     film += " vehicle's own estimate, the structure is as the planner believed it."
-    (section,) = pictures_sections(Pictures(PNG, scene, b"mp4", film))
-    assert [type(block) for block in section.blocks] == [Picture, Film]
+    blocks = list(picture_blocks(Pictures(PNG, scene, b"mp4", film)))
+    assert [type(block) for block in blocks] == [Picture, Film]
     assert "4,3-mal" in GERMAN.plain(caption(film))
     assert "estimate" not in GERMAN.plain(caption(film))
 
 
 def test_missing_pictures_are_a_note_and_unwanted_ones_nothing() -> None:
-    assert pictures_sections(None) == []
+    assert list(picture_blocks(None)) == []
     note = "No pictures: rendering took longer than 90 s; 'inspect doctor' says what is missing."
-    (section,) = pictures_sections(Pictures(note=note))
-    (paragraph,) = section.blocks
+    (paragraph,) = picture_blocks(Pictures(note=note))
     assert isinstance(paragraph, Paragraph)
     assert paragraph.role == "note"
     assert isinstance(paragraph.text, Said)
     assert "dauerte länger als 90 s" in GERMAN.plain(paragraph.text)
 
 
-def test_no_table_is_empty(deck: Evaluated) -> None:
+def test_no_table_is_empty(deck: SurfaceFindings) -> None:
     for block in blocks_of(deck):
         if isinstance(block, Table):
             assert block.rows

@@ -16,17 +16,10 @@ from experiment_flights import (
     hold,
     servoing,
 )
+from modes import Mode
 from report_pages import Reported, decoded, trace
 
-from inspect_cli.records import (
-    Estimate,
-    Mode,
-    Reference,
-    State,
-    TrueContact,
-    TrueDisturbance,
-    WallForce,
-)
+from inspect_cli.records import Estimate, Reference, State, TrueContact, TrueDisturbance, WallForce
 
 Report = Callable[[Flight], Reported]
 Build = Callable[[Path], Flight]

@@ -17,19 +17,26 @@ from visible_words import Pseudo, foreign, left_over, shown, visible
 
 from inspect_cli import cli
 from inspect_cli.commands.delivery import Wanted, deliver
-from inspect_cli.commands.evaluating import evaluated_points
 from inspect_cli.commands.study import STUDIES
+from inspect_cli.commands.surface_maps import with_maps
+from inspect_cli.metrics.evaluate import evaluate_with_arrays
 from inspect_cli.metrics.flight import Flight as Logged
 from inspect_cli.metrics.points import point_results
 from inspect_cli.metrics.truth_scoring import NO_TRUTH
 from inspect_cli.records import InvalidReason
-from inspect_cli.reporting.figures_pitch import ACTIVE, DETECTED, MISSED, SITES, TOO_RESISTIVE
-from inspect_cli.reporting.html import html
-from inspect_cli.reporting.language import LANGUAGES, language
-from inspect_cli.reporting.points import ReadPoint
-from inspect_cli.reporting.recorded import RECORDED, recorded
-from inspect_cli.reporting.report import report_document
-from inspect_cli.reporting.text import Said, count, number, say, significant
+from inspect_cli.reporting.documents.flight import report_document
+from inspect_cli.reporting.half_cell.points import ReadPoint
+from inspect_cli.reporting.screen.html import html
+from inspect_cli.reporting.studies.pitch_figures import (
+    ACTIVE,
+    DETECTED,
+    MISSED,
+    SITES,
+    TOO_RESISTIVE,
+)
+from inspect_cli.reporting.words.language import LANGUAGES, language
+from inspect_cli.reporting.words.recorded import RECORDED, recorded
+from inspect_cli.reporting.words.text import Said, count, number, say, significant
 from inspect_cli.schema.result import Metric
 from inspect_cli.schema.study import Quantity, StudyResult, StudyVariant
 
@@ -40,7 +47,7 @@ Report = Callable[[Flight], Reported]
 @pytest.mark.parametrize("code", [code for code in LANGUAGES if code != "en"])
 def test_every_sentence_of_the_source_is_translated(root: Path, code: str) -> None:
     package = root / "inspect_cli"
-    file = package / "reporting" / "languages" / f"{code}.po"
+    file = package / "reporting" / "words" / "languages" / f"{code}.po"
     catalogue = read_po(BytesIO(file.read_bytes()), locale=code)
     wanted, there = said(package), set()
     for message in catalogue:
@@ -179,7 +186,7 @@ def test_the_pseudo_language_finds_what_is_left() -> None:
 def test_german_has_its_own_signs(fly: Fly, report: Report, tmp_path: Path) -> None:
     flight = fly(acceptance=ACCEPTANCE)
     log, english = flight.log(), report(flight)
-    evaluated = evaluated_points(english.result.points, log)
+    evaluated = with_maps(evaluate_with_arrays(log).assessed)
     document = report_document(log, english.result, log.plan(), evaluated)
     path = deliver(tmp_path, document, Wanted("de"))
     page = Page(path.read_text(encoding="utf-8"))

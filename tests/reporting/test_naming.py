@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import pytest
 
-from inspect_cli.reporting.language import language
-from inspect_cli.reporting.naming import named
+from inspect_cli.reporting.words.language import language
+from inspect_cli.reporting.words.naming import named
 
 ENGLISH = language("en")
 

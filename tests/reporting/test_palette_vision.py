@@ -13,8 +13,8 @@ from itertools import combinations, pairwise
 import numpy as np
 import pytest
 
-from inspect_cli.reporting import palette
-from inspect_cli.reporting.palette import (
+from inspect_cli.reporting.figures import palette
+from inspect_cli.reporting.figures.palette import (
     ASTM_STYLES,
     COMMAND,
     CORROSION_STYLES,

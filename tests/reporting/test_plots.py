@@ -13,28 +13,28 @@ import numpy as np
 import pytest
 from example_flights import spoil, survey
 
-from inspect_cli.commands.evaluating import evaluated_points
-from inspect_cli.metrics.evaluate import evaluate
+from inspect_cli.commands.surface_maps import with_maps
+from inspect_cli.metrics.evaluate import evaluate_with_arrays
 from inspect_cli.records import InvalidReason, Reference
-from inspect_cli.reporting.figure import Figure, numbers, words
-from inspect_cli.reporting.figures_cumulative import cumulative_figure
-from inspect_cli.reporting.figures_error import error_figure
-from inspect_cli.reporting.figures_forces import actuator_figures, force_figures
-from inspect_cli.reporting.figures_histogram import histogram_figure
-from inspect_cli.reporting.figures_map import map_figure
-from inspect_cli.reporting.figures_modes import modes_figure
-from inspect_cli.reporting.figures_resistivity import resistivity_figure
-from inspect_cli.reporting.figures_scene import scene_figure
-from inspect_cli.reporting.figures_tracking import tracking_figures
-from inspect_cli.reporting.language import Language, language
-from inspect_cli.reporting.places import shared_range
-from inspect_cli.reporting.plot_axes import round_ticks
-from inspect_cli.reporting.plot_scale import SCALES, MapScale, scale_for
-from inspect_cli.reporting.plot_text import label_lines, rgba
-from inspect_cli.reporting.plots import Plot, draw
-from inspect_cli.reporting.points import read_points
-from inspect_cli.reporting.rows import rows_of
-from inspect_cli.reporting.timeline import timeline_of
+from inspect_cli.reporting.figures.figure import Figure, numbers, words
+from inspect_cli.reporting.figures.rows import rows_of
+from inspect_cli.reporting.figures.timeline import timeline_of
+from inspect_cli.reporting.flight.forces import actuator_figures, force_figures
+from inspect_cli.reporting.flight.modes import modes_figure
+from inspect_cli.reporting.flight.scene import scene_figure
+from inspect_cli.reporting.flight.tracking import tracking_figures
+from inspect_cli.reporting.half_cell.cumulative import cumulative_figure
+from inspect_cli.reporting.half_cell.error_map import error_figure
+from inspect_cli.reporting.half_cell.histogram import histogram_figure
+from inspect_cli.reporting.half_cell.places import shared_range
+from inspect_cli.reporting.half_cell.points import read_points
+from inspect_cli.reporting.half_cell.potential_map import map_figure
+from inspect_cli.reporting.half_cell.resistivity import resistivity_figure
+from inspect_cli.reporting.paper.plot_axes import round_ticks
+from inspect_cli.reporting.paper.plot_scale import SCALES, MapScale, scale_for
+from inspect_cli.reporting.paper.plot_text import label_lines, rgba
+from inspect_cli.reporting.paper.plots import Plot, draw
+from inspect_cli.reporting.words.language import Language, language
 
 ENGLISH = language("en")
 COMMA = Language("en", ",", {})
@@ -48,10 +48,11 @@ def figures() -> dict[str, Figure]:
     flight = survey(PLATFORM, 3, 5)
     spoil(flight, 7, InvalidReason.FORCE)
     log = flight.log()
-    result = evaluate(log)
+    evaluation = evaluate_with_arrays(log)
+    result = evaluation.result
     points = read_points(result, flight.plan)
-    (evaluated,) = evaluated_points(result.points, log)
-    timeline = timeline_of(rows_of(log, Reference), flight.plan)
+    (evaluated,) = with_maps(evaluation.assessed)
+    timeline = timeline_of(rows_of(log, Reference), flight.plan, log.modes())
     found = [
         map_figure(0, evaluated, shared_range([evaluated]), {}),
         error_figure(0, evaluated),

@@ -12,8 +12,14 @@ from example_flights import Flight
 from report_pages import Reported
 
 from inspect_cli.metrics.catalogue import METRICS
-from inspect_cli.reporting.language import language
-from inspect_cli.reporting.published import NUMBERS, PUBLISHED, TABLE_IV, number_of, published_of
+from inspect_cli.reporting.words.language import language
+from inspect_cli.reporting.words.published import (
+    NUMBERS,
+    PUBLISHED,
+    TABLE_IV,
+    number_of,
+    published_of,
+)
 
 Fly = Callable[..., Flight]
 Report = Callable[[Flight], Reported]

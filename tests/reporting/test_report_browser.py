@@ -17,9 +17,9 @@ from pypdf import PdfReader
 from report_pages import Page
 
 from inspect_cli.records import Estimate, InvalidReason, State
-from inspect_cli.reporting.content import Document
-from inspect_cli.reporting.html import html
-from inspect_cli.reporting.language import language
+from inspect_cli.reporting.content.blocks import Document
+from inspect_cli.reporting.screen.html import html
+from inspect_cli.reporting.words.language import language
 
 pytestmark = [pytest.mark.browser, pytest.mark.xdist_group("browser")]
 

@@ -9,19 +9,20 @@ from itertools import pairwise
 import numpy as np
 import pytest
 from example_flights import Flight, spoil
+from modes import TABLE, Mode
 from report_pages import Reported, decoded, trace
 
-from inspect_cli.records import Estimate, InvalidReason, Mode, Reference, State
-from inspect_cli.reporting.figures_scene import patch_mesh
-from inspect_cli.reporting.points import read_points
-from inspect_cli.reporting.potential_scale import (
+from inspect_cli.records import Estimate, InvalidReason, Reference, State
+from inspect_cli.reporting.figures.rows import attitude_difference_mrad, held_at, roll_pitch_yaw_deg
+from inspect_cli.reporting.figures.timeline import BUCKETS, thinned, timeline_of
+from inspect_cli.reporting.flight.scene import patch_mesh
+from inspect_cli.reporting.half_cell.points import read_points
+from inspect_cli.reporting.half_cell.potential_scale import (
     colour_scale,
     colours,
     potential_range,
     potentials_of,
 )
-from inspect_cli.reporting.rows import attitude_difference_mrad, held_at, roll_pitch_yaw_deg
-from inspect_cli.reporting.timeline import BUCKETS, thinned, timeline_of
 from inspect_cli.schema.plan import PlannedSurface
 from inspect_cli.spatial.rotations import matrix_to_quaternion, roll_pitch_yaw_matrix
 
@@ -49,13 +50,13 @@ def test_thinning_keeps_every_peak_and_every_gap() -> None:
 
 def test_phases_are_the_presses(fly: Fly) -> None:
     flight = fly(1, 3)
-    phases = timeline_of(flight.rows(Reference), flight.plan).phases
+    phases = timeline_of(flight.rows(Reference), flight.plan, TABLE).phases
     assert [phase.label for phase in phases] == ["1", "2", "3"]
     for phase in phases:
         assert phase.end_s - phase.start_s == pytest.approx(4.5, abs=0.011)
     # A log that is cut in the middle of a contact still shades it, up to its end.
     flight.cut_at(phases[1].start_s + 1.0)
-    last = timeline_of(flight.rows(Reference), flight.plan).phases[-1]
+    last = timeline_of(flight.rows(Reference), flight.plan, TABLE).phases[-1]
     assert last.label == "2"
     assert last.end_s == flight.rows(Reference)["t_s"][-1]
 

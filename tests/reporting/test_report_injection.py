@@ -17,11 +17,10 @@ from inspect_cli.log.foxglove import Event
 from inspect_cli.log.reader import RunLog
 from inspect_cli.metrics.evaluate import evaluate
 from inspect_cli.records import InvalidReason
-from inspect_cli.reporting.content import Document
-from inspect_cli.reporting.html import html
-from inspect_cli.reporting.language import LANGUAGES, language
-from inspect_cli.reporting.report import report_document
-from inspect_cli.reporting.survey import survey_document
+from inspect_cli.reporting.content.blocks import Document
+from inspect_cli.reporting.documents.flight import report_document, survey_document
+from inspect_cli.reporting.screen.html import html
+from inspect_cli.reporting.words.language import LANGUAGES, language
 from inspect_cli.schema.survey import LanguageCode
 
 pytestmark = [pytest.mark.browser, pytest.mark.xdist_group("browser")]

@@ -8,13 +8,13 @@ import numpy as np
 import pytest
 from report_pages import decoded
 
-from inspect_cli.reporting.checks_table import bounds
-from inspect_cli.reporting.content import Column, Table
-from inspect_cli.reporting.figure import merged, numbers
-from inspect_cli.reporting.html import blocks
-from inspect_cli.reporting.language import language
-from inspect_cli.reporting.markup import Markup, data_script, element, joined
-from inspect_cli.reporting.text import number, significant
+from inspect_cli.reporting.content.blocks import Column, Table
+from inspect_cli.reporting.documents.checks_table import bounds
+from inspect_cli.reporting.figures.figure import merged, numbers
+from inspect_cli.reporting.screen.html import blocks
+from inspect_cli.reporting.screen.markup import Markup, data_script, element, joined
+from inspect_cli.reporting.words.language import language
+from inspect_cli.reporting.words.text import number, significant
 
 
 def test_elements_escape_text_and_attributes() -> None:

@@ -9,17 +9,17 @@ from collections.abc import Callable
 import numpy as np
 import pytest
 from example_flights import Flight, spoil
+from modes import Mode
 from plotly.offline import get_plotlyjs
 from report_pages import Page, Reported, decoded
 
 from inspect_cli.assessment.classes import COMBINED_RULE
-from inspect_cli.commands.evaluating import evaluated_points
-from inspect_cli.metrics.evaluate import evaluate
+from inspect_cli.commands.surface_maps import with_maps
+from inspect_cli.metrics.evaluate import evaluate_with_arrays
 from inspect_cli.records import (
     Command,
     Estimate,
     InvalidReason,
-    Mode,
     Probe,
     Reading,
     Reference,
@@ -27,9 +27,9 @@ from inspect_cli.records import (
     SurfaceEstimate,
     TrueContact,
 )
-from inspect_cli.reporting.html import html
-from inspect_cli.reporting.language import language
-from inspect_cli.reporting.report import report_document
+from inspect_cli.reporting.documents.flight import report_document
+from inspect_cli.reporting.screen.html import html
+from inspect_cli.reporting.words.language import language
 from inspect_cli.schema.result import Metric
 
 Fly = Callable[..., Flight]
@@ -123,9 +123,10 @@ def test_same_log_same_bytes(fly: Fly, report: Report) -> None:
 def test_a_long_flight_stays_small_and_quick(fly: Fly) -> None:
     flight = fly(4, 6)  # 253 s
     log = flight.log()
-    result = evaluate(log)
+    evaluation = evaluate_with_arrays(log)
+    result = evaluation.result
     begin = time.process_time()
-    evaluated = evaluated_points(result.points, log)
+    evaluated = with_maps(evaluation.assessed)
     page = html(report_document(log, result, log.plan(), evaluated), language("en"))
     assert time.process_time() - begin < 2.0
     assert len(page.encode()) - len(get_plotlyjs().encode()) < 3e6

@@ -12,8 +12,7 @@ import pytest
 from PIL import Image
 
 from inspect_cli.errors import EnvironmentFault
-from inspect_cli.reporting import typeset
-from inspect_cli.reporting.content import (
+from inspect_cli.reporting.content.blocks import (
     Block,
     Box,
     Boxes,
@@ -31,12 +30,14 @@ from inspect_cli.reporting.content import (
     Section,
     Table,
 )
-from inspect_cli.reporting.figure import Figure, Json, words
-from inspect_cli.reporting.html import html
-from inspect_cli.reporting.language import Language, language
-from inspect_cli.reporting.plots import draw
-from inspect_cli.reporting.printable import breakable, printable, shortened
-from inspect_cli.reporting.text import (
+from inspect_cli.reporting.figures.figure import Figure, Json, words
+from inspect_cli.reporting.paper import typeset
+from inspect_cli.reporting.paper.plots import draw
+from inspect_cli.reporting.paper.typeset import HALF_PAGE_MM, pdf, typeset_files, write_pdf
+from inspect_cli.reporting.screen.html import html
+from inspect_cli.reporting.words.language import Language, language
+from inspect_cli.reporting.words.printable import breakable, printable, shortened
+from inspect_cli.reporting.words.text import (
     NOTHING,
     Badge,
     Chip,
@@ -52,7 +53,6 @@ from inspect_cli.reporting.text import (
     strong,
     together,
 )
-from inspect_cli.reporting.typeset import HALF_PAGE_MM, pdf, typeset_files, write_pdf
 
 ENGLISH = language("en")
 GERMAN = Language("de", ",", {"{n} readings are valid.": "{n} Messwerte sind gültig."})

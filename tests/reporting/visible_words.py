@@ -15,9 +15,9 @@ from report_pages import Page
 
 from inspect_cli.metrics.catalogue import METRICS
 from inspect_cli.records import CORE_RECORDS
-from inspect_cli.reporting.language import Language, language, pieces
-from inspect_cli.reporting.published import PUBLISHED, SOURCE
-from inspect_cli.reporting.text import Said
+from inspect_cli.reporting.words.language import Language, language, pieces
+from inspect_cli.reporting.words.published import PUBLISHED, SOURCE
+from inspect_cli.reporting.words.text import Said
 
 UNITS = {
     "V",

@@ -8,13 +8,14 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
+from modes import Mode
 
 from inspect_cli.commands.fly import fly
 from inspect_cli.commands.plan import plan
 from inspect_cli.commands.report import report
 from inspect_cli.errors import InfeasibleError
 from inspect_cli.log.reader import read_log
-from inspect_cli.records import Command, Mode, Reference, State
+from inspect_cli.records import Command, Reference, State
 from inspect_cli.schema.loading import load_mission
 from inspect_cli.schema.plan import PlanFile
 from inspect_cli.spatial.rotations import quaternion_to_matrix

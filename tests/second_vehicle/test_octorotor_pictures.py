@@ -5,11 +5,11 @@ from __future__ import annotations
 import mujoco
 import numpy as np
 
-from inspect_cli.pictures.dressing import dressed
+from inspect_cli.scene.visual_model import visual_model
 
 
 def test_every_rotor_has_its_ring(vehicle) -> None:
-    plain, model = vehicle.nominal_spec().compile(), dressed(vehicle).compile()
+    plain, model = vehicle.nominal_spec().compile(), visual_model(vehicle).compile()
     assert model.nq == plain.nq
     assert np.allclose(model.body_mass, plain.body_mass)
     rings = np.flatnonzero(model.geom_type == mujoco.mjtGeom.mjGEOM_MESH)

@@ -7,10 +7,10 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
+from modes import Mode
 
 from inspect_cli.commands.fly import FlyOutcome, fly
 from inspect_cli.log.reader import RunLog, read_log
-from inspect_cli.records import Mode
 
 Array = np.ndarray
 

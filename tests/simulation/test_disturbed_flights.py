@@ -6,10 +6,11 @@ from collections.abc import Callable
 
 import numpy as np
 import pytest
+from modes import Mode
 from scenarios import Array, Flown, Scenario
 from scipy.spatial.transform import Rotation
 
-from inspect_cli.records import Mode, TrueDisturbance
+from inspect_cli.records import TrueDisturbance
 
 Fly = Callable[[Scenario], Flown]
 pytestmark = pytest.mark.xdist_group("flights")

@@ -9,14 +9,15 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from modes import Mode
 from scenarios import TWO_POINTS, Array, Flown, Scenario
 
-from inspect_cli.records import Mode, Record, State
+from inspect_cli.records import Record, State
 from inspect_cli.simulation.instruments import Instruments
 from inspect_cli.simulation.plant import Plant
 from inspect_cli.simulation.recorder import Recorder
 from inspect_cli.truth.contact import ContactTruth
-from inspect_cli.vehicles.stack import ImpedanceStack
+from inspect_cli.vehicles.fully_actuated.impedance_control import ImpedanceControl
 
 Fly = Callable[[Scenario], Flown]
 pytestmark = pytest.mark.xdist_group("flights")
@@ -224,7 +225,7 @@ def test_poisoned_truth_changes_nothing_downstream_of_the_sensors(
     """State and contact are NaN but for sensors and log; the log is the same, to the byte."""
     clean = bytes_of(flown(SHORT))
     poison, observe, update = Poison(), Plant.observe, ContactTruth.update
-    control = ImpedanceStack.control
+    control = ImpedanceControl.update
 
     def observe_and_spoil(plant: Plant, t_s: float) -> State:
         state = observe(plant, t_s)
@@ -249,7 +250,7 @@ def test_poisoned_truth_changes_nothing_downstream_of_the_sensors(
     monkeypatch.setattr(Recorder, "rows", poison.antidote(Recorder.rows))
     monkeypatch.setattr(Plant, "observe", observe_and_spoil)
     monkeypatch.setattr(ContactTruth, "update", update_and_spoil)
-    monkeypatch.setattr(ImpedanceStack, "control", control_without_truth)
+    monkeypatch.setattr(ImpedanceControl, "update", control_without_truth)
     poisoned = SHORT.fly(campaign, "poisoned")
     assert poison.controls > 10_000
     assert bytes_of(poisoned) == clean

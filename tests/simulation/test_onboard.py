@@ -7,13 +7,14 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from modes import Mode
 from scenarios import TWO_POINTS, Array, Flown, Scenario
 
 from inspect_cli.errors import SchemaError
 from inspect_cli.estimation.observer_lag import first_order_response
 from inspect_cli.metrics.force_sensor import low_pass
-from inspect_cli.records import Mode, Pose
-from inspect_cli.vehicles.stack import ImpedanceStack
+from inspect_cli.records import Pose
+from inspect_cli.vehicles.fully_actuated.impedance_control import ImpedanceControl
 
 Fly = Callable[[Scenario], Flown]
 pytestmark = pytest.mark.xdist_group("flights")
@@ -50,13 +51,13 @@ def test_it_touches_both_points_and_drifts(flown: Fly) -> None:
 
 def test_no_pose_is_refused_in_a_normal_flight(flown: Fly, monkeypatch: pytest.MonkeyPatch) -> None:
     accepted: list[bool] = []
-    on_pose = ImpedanceStack.on_pose
+    on_pose = ImpedanceControl.correct
 
-    def watched(stack: ImpedanceStack, pose: Pose) -> bool:
+    def watched(stack: ImpedanceControl, pose: Pose) -> bool:
         accepted.append(on_pose(stack, pose))
         return accepted[-1]
 
-    monkeypatch.setattr(ImpedanceStack, "on_pose", watched)
+    monkeypatch.setattr(ImpedanceControl, "correct", watched)
     flown(Scenario("onboard-watched", tasks=ONBOARD + TWO_POINTS, seed=2))
     assert len(accepted) > 1000
     assert all(accepted)

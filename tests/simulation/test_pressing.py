@@ -35,7 +35,7 @@ def press(
     plant = plant_of(vehicle, structure_of([wall]), effects=effects)
     placed(plant, start.tolist())
     stack, pose, reference = (
-        vehicle.flight_stack(),
+        vehicle.flight_control(),
         Pose.create(),
         Reference.create(vehicle.capabilities.lengths),
     )
@@ -50,7 +50,7 @@ def press(
         if tick % 5 == 0:
             plant.feel_surroundings()
         tell(stack.estimate.views, state)
-        stack.control(reference, True)
+        stack.update(reference, True)
         plant.apply(stack.command)
         plant.step(CONTROL_STEPS)
         peak = max(peak, state.f_normal)

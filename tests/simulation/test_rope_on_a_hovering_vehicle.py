@@ -42,7 +42,7 @@ def pull(profile: str, direction: tuple[float, float, float], force_n: float) ->
     rope = Rope(kind="rope", direction=direction, stiffness_npm=CORD_NPM, pulls=(one,))
     plant = plant_of(vehicle, disturbances=[rope])
     placed(plant, START.tolist())
-    stack, pose = vehicle.flight_stack(), Pose.create()
+    stack, pose = vehicle.flight_control(), Pose.create()
     reference = Reference.create(vehicle.capabilities.lengths)
     reference.impedance = float(vehicle.capabilities.impedances.index(profile))
     for record in (pose, reference):
@@ -54,7 +54,7 @@ def pull(profile: str, direction: tuple[float, float, float], force_n: float) ->
         state = plant.observe(t_s)
         for name in ("p_WB", "q_WB", "v_WB_W", "w_WB_B"):
             stack.estimate.views[name][:] = state.views[name]
-        stack.control(reference, True)
+        stack.update(reference, True)
         plant.disturb(t_s)
         plant.apply(stack.command)
         plant.step(CONTROL_STEPS)

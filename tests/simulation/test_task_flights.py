@@ -8,12 +8,12 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from modes import Mode
 from scenarios import Array, Flown
 from worlds import PLATFORM
 
 from inspect_cli.commands.fly import fly
 from inspect_cli.log.reader import read_log
-from inspect_cli.records import Mode
 from inspect_cli.schema.loading import load_platform
 
 pytestmark = pytest.mark.xdist_group("flights")

@@ -11,8 +11,9 @@ from scipy.spatial.transform import Rotation
 
 from inspect_cli.errors import InputError
 from inspect_cli.interfaces import Posture
-from inspect_cli.records import Pose, Reference
+from inspect_cli.records import Pose
 from inspect_cli.schema.loading import load_platform
+from inspect_cli.schema.plan import Plan, PostureModel
 from inspect_cli.vehicles import build_vehicle
 from inspect_cli.vehicles.kinds import Vehicle
 
@@ -113,14 +114,18 @@ def test_it_stands_on_its_feet(vehicle: Vehicle, model: mujoco.MjModel) -> None:
 
 def test_the_stack_starts_idle_and_hovers_when_it_flies(vehicle: Vehicle) -> None:
     """At rest on its reference, the thrusts carry the nominal weight."""
-    stack, pose = vehicle.flight_stack(), Pose.create()
-    pose.p_WB[:], pose.q_WB[:] = [1.0, 2.0, 3.0], [1.0, 0.0, 0.0, 0.0]
+    start = PostureModel(p_WB=(1.0, 2.0, 3.0), q_WB=(1.0, 0.0, 0.0, 0.0))
+    stack, pose = (
+        vehicle.flight_stack(Plan.model_construct(surfaces=(), start=start)),
+        Pose.create(),
+    )
+    pose.p_WB[:], pose.q_WB[:] = start.p_WB, start.q_WB
     stack.start(pose)
-    reference = Reference.create(vehicle.capabilities.lengths)
-    reference.p_WB[:], reference.q_WB[:] = pose.p_WB, pose.q_WB
-    stack.control(reference, False)
+    stack.control(0.0)
     assert not stack.command.rotor_thrust.any()
-    stack.control(reference, True)
+    stack.armed = True
+    stack.control(0.004)
+    np.testing.assert_allclose(stack.reference.p_WB, start.p_WB)
     mass = float(vehicle.nominal_spec().compile().body_subtreemass[1])
     # The observer has seen one period of a vehicle that does not fall: a trace of support.
     assert stack.command.allocated_B[2] == pytest.approx(9.81 * mass, rel=0.01)

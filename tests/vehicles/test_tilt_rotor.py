@@ -12,7 +12,7 @@ from scipy.spatial.transform import Rotation
 from inspect_cli.interfaces import Posture
 from inspect_cli.schema.vehicle import TiltRotorPlatform
 from inspect_cli.vehicles import build_vehicle
-from inspect_cli.vehicles.rigid_body import nominal_body
+from inspect_cli.vehicles.fully_actuated.rigid_body import nominal_body
 from inspect_cli.vehicles.tilt_rotor.model import build_spec, tool_transform
 
 Pitched = Callable[[float], TiltRotorPlatform]

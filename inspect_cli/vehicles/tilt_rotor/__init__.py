@@ -7,17 +7,22 @@ import numpy as np
 
 from inspect_cli.control.tilt_allocation import TiltAllocation
 from inspect_cli.interfaces import FlightStack
+from inspect_cli.schema.plan import Plan
 from inspect_cli.schema.positioning import Estimation
 from inspect_cli.schema.vehicle import TiltRotorPlatform
+from inspect_cli.vehicles.fully_actuated import BEHAVIOUR
+from inspect_cli.vehicles.fully_actuated.impedance_control import ImpedanceControl
+from inspect_cli.vehicles.fully_actuated.rigid_body import nominal_body
+from inspect_cli.vehicles.fully_actuated.stack import FullyActuatedStack
 from inspect_cli.vehicles.kinds import Actuators, Tip
-from inspect_cli.vehicles.rigid_body import nominal_body
-from inspect_cli.vehicles.stack import ImpedanceStack
 from inspect_cli.vehicles.tilt_rotor.capabilities import TiltRotorCapabilities
 from inspect_cli.vehicles.tilt_rotor.model import build_spec, group_kappa_m
 
 
 class TiltRotor:
     """A tilt-rotor vehicle, built from its platform file."""
+
+    behaviour = BEHAVIOUR
 
     def __init__(self, platform: TiltRotorPlatform) -> None:
         self.platform = platform
@@ -37,9 +42,14 @@ class TiltRotor:
         """The nominal MuJoCo model, in free space."""
         return build_spec(self.platform)
 
-    def flight_stack(self, estimation: Estimation = "external") -> FlightStack:
+    def flight_stack(self, plan: Plan, estimation: Estimation = "external") -> FlightStack:
+        """Pursuit and impedance control."""
+        controller = self.flight_control(estimation)
+        return FullyActuatedStack(self.platform, self.capabilities, controller, plan)
+
+    def flight_control(self, estimation: Estimation = "external") -> ImpedanceControl:
         """Error-state filter, momentum observer, selective impedance, static allocation."""
-        return ImpedanceStack(
+        return ImpedanceControl(
             self.platform, self.capabilities, self._body, self._allocation(), estimation
         )
 

@@ -10,14 +10,19 @@ from canted_octorotor.file_model import N_ROTORS, CantedOctorotorPlatform
 from canted_octorotor.fixed_allocation import FixedAllocation
 from canted_octorotor.mujoco_model import build_spec
 from inspect_cli.interfaces import FlightStack
+from inspect_cli.schema.plan import Plan
 from inspect_cli.schema.positioning import Estimation
+from inspect_cli.vehicles.fully_actuated import BEHAVIOUR
+from inspect_cli.vehicles.fully_actuated.impedance_control import ImpedanceControl
+from inspect_cli.vehicles.fully_actuated.rigid_body import nominal_body
+from inspect_cli.vehicles.fully_actuated.stack import FullyActuatedStack
 from inspect_cli.vehicles.kinds import Actuators, Tip
-from inspect_cli.vehicles.rigid_body import nominal_body
-from inspect_cli.vehicles.stack import ImpedanceStack
 
 
 class CantedOctorotor:
     """One vehicle, built from its platform file."""
+
+    behaviour = BEHAVIOUR
 
     def __init__(self, platform: CantedOctorotorPlatform) -> None:
         self.platform = platform
@@ -35,6 +40,12 @@ class CantedOctorotor:
     def nominal_spec(self) -> mujoco.MjSpec:
         return build_spec(self.platform)
 
-    def flight_stack(self, estimation: Estimation = "external") -> FlightStack:
+    def flight_stack(self, plan: Plan, estimation: Estimation = "external") -> FlightStack:
+        controller = self.flight_control(estimation)
+        return FullyActuatedStack(self.platform, self.capabilities, controller, plan)
+
+    def flight_control(self, estimation: Estimation = "external") -> ImpedanceControl:
         allocation = FixedAllocation(self.platform.rotors)
-        return ImpedanceStack(self.platform, self.capabilities, self._body, allocation, estimation)
+        return ImpedanceControl(
+            self.platform, self.capabilities, self._body, allocation, estimation
+        )

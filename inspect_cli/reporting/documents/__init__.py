@@ -1,0 +1,1 @@
+"""Whole reports: of a flight, of a survey of several sorties, of readings from a file."""

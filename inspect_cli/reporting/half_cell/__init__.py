@@ -1,0 +1,1 @@
+"""Half-cell potentials in a report: maps, classes, populations, tables and sentences."""

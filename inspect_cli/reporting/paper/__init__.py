@@ -1,0 +1,1 @@
+"""A report as a PDF: typesetting, and the figures drawn for paper."""

@@ -1,0 +1,1 @@
+"""The scene of a flight in MuJoCo: visible vehicle, structure, marks, and how they move."""

@@ -1,0 +1,103 @@
+"""Estimation and impedance control of a fully actuated vehicle; allocation is the kind's own.
+
+IMU ─▶ error-state filter ◀─ pose        (estimate; of the tracker or of the odometry)
+          │
+          ▼
+momentum observer ─▶ selective impedance ─▶ allocation ─▶ command
+
+The angles of an arm pass from the reference to its servos, which are believed to hold them.
+"""
+
+from __future__ import annotations
+
+from typing import Protocol
+
+import numpy as np
+
+from inspect_cli.control.impedance import ImpedanceController, RigidBody
+from inspect_cli.estimation.error_state import ErrorStateFilter
+from inspect_cli.estimation.wrench_observer import WrenchObserver
+from inspect_cli.interfaces import Capabilities, at_origin
+from inspect_cli.records import Command, Estimate, Imu, Pose, Reference
+from inspect_cli.schema.positioning import Estimation
+from inspect_cli.schema.vehicle import PlatformBase
+from inspect_cli.spatial.arrays import Vector
+
+
+class Allocation(Protocol):
+    """Turns the command's wrench into actuator set-points."""
+
+    def update(self, weight_B: Vector, command: Command) -> None:
+        """Write thrusts, tilts, the granted wrench and whether it saturated."""
+        ...
+
+
+class ImpedanceControl:
+    """Filter, observer, impedance law and allocation of one vehicle."""
+
+    def __init__(
+        self,
+        platform: PlatformBase,
+        capabilities: Capabilities,
+        body: RigidBody,
+        allocation: Allocation,
+        estimation: Estimation = "external",
+    ) -> None:
+        rates, control = platform.rates, platform.control
+        self.estimate = Estimate.create()
+        self.command = Command.create(capabilities.lengths)
+        noise, pose_hz = platform.positioning(estimation)
+        self._filter = ErrorStateFilter(platform.sensors.imu, noise, rates.imu_hz, pose_hz)
+        self._observer = WrenchObserver(
+            body.mass_kg,
+            body.inertia_B,
+            body.com_B,
+            np.array(control.observer_gain + control.observer_gain_torque),
+            1.0 / rates.control_hz,
+        )
+        self._capabilities = capabilities
+        angles, n_arm = self.command.joint_angle, capabilities.lengths.get("n_arm", 0)
+        self._arm_angle = angles[len(angles) - n_arm :]
+        _, R_BT = capabilities.tool_pose(at_origin(self._arm_angle))
+        self._impedance = ImpedanceController(body, control, R_BT, rates.control_hz)
+        self._allocation = allocation
+        self._flying = False
+
+    def start(self, pose: Pose) -> None:
+        """Begin at rest at a measured pose."""
+        self._filter.start(pose, self.estimate)
+
+    def propagate(self, imu: Imu) -> None:
+        """Propagate the estimate with an inertial sample."""
+        self._filter.propagate(imu, self.estimate)
+
+    def correct(self, pose: Pose) -> bool:
+        """Correct the estimate with a pose measurement; False when it was refused."""
+        return self._filter.correct(pose, self.estimate)
+
+    def update(self, reference: Reference, armed: bool) -> None:
+        """Write the command; idle motors, and an observer at rest, when not ``armed``."""
+        if self._arm_angle.size:
+            self._move_arm(reference.arm_angle)
+        if not armed:
+            self._idle()
+            return
+        if not self._flying:
+            self._observer.reset(self.estimate)
+            self._flying = True
+        self._observer.update(self.estimate, self.command.allocated_B)
+        self._impedance.update(self.estimate, reference, self.command)
+        self._allocation.update(self._impedance.weight_B, self.command)
+
+    def _move_arm(self, arm_angle: Vector) -> None:
+        """Command the arm, and turn the impedance with the tool."""
+        if np.array_equal(self._arm_angle, arm_angle):
+            return
+        self._arm_angle[:] = arm_angle
+        _, R_BT = self._capabilities.tool_pose(at_origin(arm_angle))
+        self._impedance.turn_tool(R_BT)
+
+    def _idle(self) -> None:
+        self._flying = False
+        for name in ("wrench_B", "allocated_B", "rotor_thrust", "saturated"):
+            self.command.views[name][...] = 0.0

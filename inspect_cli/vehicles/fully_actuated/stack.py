@@ -1,0 +1,98 @@
+"""The flight stack of a fully actuated vehicle: it sees the surface, follows and controls a pose.
+
+IMU, pose ─▶ estimate ─────────────────────────────────────────────▶ impedance control ─▶ command
+depth image ─▶ local surface ─▶ normal-tracking pursuit ─▶ reference ─────────╯
+
+One estimator and one controller serve all modes.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+import numpy as np
+
+from inspect_cli.guidance.local_surface import LocalSurface
+from inspect_cli.guidance.pursuit import Pursuit
+from inspect_cli.interfaces import Capabilities, DepthImage, Posture
+from inspect_cli.records import Imu, Pose, Record, SurfaceEstimate
+from inspect_cli.schema.plan import Plan
+from inspect_cli.schema.primitives import primitive_of
+from inspect_cli.schema.vehicle import PlatformBase
+from inspect_cli.spatial.arrays import Matrix, Vector
+from inspect_cli.spatial.rotations import rotate
+from inspect_cli.vehicles.fully_actuated.impedance_control import ImpedanceControl
+
+
+class FullyActuatedStack:
+    """Impedance control of a vehicle behind a pursuit that tracks the surface which is seen."""
+
+    def __init__(
+        self,
+        platform: PlatformBase,
+        capabilities: Capabilities,
+        controller: ImpedanceControl,
+        plan: Plan,
+    ) -> None:
+        believed = {surface.name: primitive_of(surface.shape) for surface in plan.surfaces}
+        self.guidance = Pursuit(capabilities, plan.start.posture, believed)
+        self.reference = self.guidance.reference
+        self.estimate, self.command = controller.estimate, controller.command
+        self.armed = False
+        self.loops: Mapping[str, int] = {"guidance": platform.rates.guidance_hz}
+        self.surface = SurfaceEstimate.create()
+        self._controller = controller
+        self._capabilities = capabilities
+        self._p_BD = np.array(platform.sensors.tof.position_B_m)
+        self._local_surface = LocalSurface(platform.sensors.tof)
+
+    def start(self, pose: Pose) -> None:
+        """Begin at rest at a measured pose."""
+        self._controller.start(pose)
+
+    def hear(self, sample: Record | DepthImage) -> Record | None:
+        """Propagate or correct the estimate, or see the surface; the rest passes."""
+        if isinstance(sample, Imu):
+            self._controller.propagate(sample)
+            return sample
+        if isinstance(sample, Pose):
+            return sample if self._controller.correct(sample) else None
+        if isinstance(sample, DepthImage):
+            return self._see(sample)
+        return sample
+
+    def enter(self, t_s: float, mode: str, target: int | None) -> None:
+        """Nothing changes: one estimator and one controller serve all modes."""
+
+    def run(self, loop: str, t_s: float) -> None:
+        """Let the surface that is seen correct the reference."""
+        self.guidance.track(t_s, self.surface)
+
+    def refer(self, t_s: float) -> None:
+        """Write the reference of the instant."""
+        self.guidance.write(t_s)
+
+    def control(self, t_s: float) -> None:
+        """Write the reference of the instant and the command that follows it."""
+        self.guidance.write(t_s)
+        self._controller.update(self.reference, self.armed)
+
+    def believed(self, frame: str) -> tuple[Vector, Matrix]:
+        """(p, R) in W of ``tool`` or of the depth camera ``tof``, whose axes are the tool's.
+
+        By the estimate, with the arm where it was asked to be.
+        """
+        estimate, arm_angle = self.estimate, self.reference.arm_angle
+        posture = Posture(estimate.p_WB, estimate.q_WB, arm_angle)
+        p_WT, R_WT = self._capabilities.tool_pose(posture)
+        if frame == "tool":
+            return p_WT, R_WT
+        return estimate.p_WB + rotate(estimate.q_WB, self._p_BD), R_WT
+
+    def _see(self, image: DepthImage) -> SurfaceEstimate:
+        """The surface that a depth image shows; one record, overwritten with each image."""
+        p_WD, _ = self.believed("tof")
+        p_WT, R_WT = self.believed("tool")
+        self._local_surface.update(image.points_D, p_WD, p_WT, R_WT, self.surface)
+        self.surface.t_s = image.t_s
+        return self.surface
