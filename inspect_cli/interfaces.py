@@ -1,4 +1,4 @@
-"""What the rooms ask of each other: a vehicle's Capabilities, its FlightStack, a Sensor.
+"""What the rooms ask of each other: a vehicle's Capabilities, its FlightStack.
 
 Planning, guidance and autonomy know a vehicle through these alone, so that a rigid tilt-rotor,
 an articulated arm and a perching manipulator are planned and flown by the same code.
@@ -6,55 +6,179 @@ an articulated arm and a perching manipulator are planned and flown by the same 
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
-from typing import Protocol
+from typing import Literal, Protocol
 
 import numpy as np
 
-from inspect_cli.records import Command, Estimate, Lengths, Pose, Record, Reference, State
+from inspect_cli.records import Command, DepthImage, Estimate, Lengths, Pose, Record, Reference
 from inspect_cli.spatial.arrays import Matrix, Points, Vector
+
+TOOL = "tool"
+"""The frame T of the tool; every vehicle has it."""
+
+
+@dataclass(frozen=True)
+class Support:
+    """What carries a vehicle that does not fly: a frame of it that a surface holds."""
+
+    frame: str
+    surface: str
 
 
 @dataclass(frozen=True)
 class Posture:
     """A whole vehicle at rest: the body's pose and the angles of its arm.
 
-    ``p_WB`` (3,) m in W; ``q_WB`` (4,) wxyz; ``arm_angle`` (n_arm,) rad, empty for a rigid arm.
-    Capabilities take an articulated arm without angles as one at rest, at zero.
+    ``p_WB`` (3,) m in W; ``q_WB`` (4,) wxyz; ``joint_angle`` (n_arm,) rad, empty for a rigid arm;
+    ``support`` is None in flight. Capabilities take an articulated arm without angles as one at
+    rest, at zero.
     """
 
     p_WB: Vector
     q_WB: Vector
-    arm_angle: Vector = field(default_factory=lambda: np.empty(0))
+    joint_angle: Vector = field(default_factory=lambda: np.empty(0))
+    support: Support | None = None
 
 
-def at_origin(arm_angle: Vector) -> Posture:
+def at_origin(joint_angle: Vector) -> Posture:
     """The posture whose body frame is W: what is asked of it in W is answered in B."""
-    return Posture(np.zeros(3), np.array([1.0, 0.0, 0.0, 0.0]), arm_angle)
+    return Posture(np.zeros(3), np.array([1.0, 0.0, 0.0, 0.0]), joint_angle)
 
 
 @dataclass(frozen=True)
-class Margins:
-    """What is left of the actuators at a posture that also carries a contact wrench."""
+class FramePose:
+    """Where a frame of the vehicle shall be: its origin p (3,) m and its axes R (3, 3) in W."""
 
-    thrust_n: float
-    """Smallest thrust still available in any rotor group, N; negative when it is too much."""
-    tilt_rad: float
-    """Smallest way to a joint's limit, rad; infinite where joints turn freely."""
+    p: Vector
+    R: Matrix
+
+
+@dataclass(frozen=True)
+class Margin:
+    """What is left of one of a vehicle's limits; negative when too much is asked of it.
+
+    ``lack`` says what is then asked, as the end of a sentence that begins with what the vehicle
+    does ("asks for 1.23 N more than a rotor can give"), and ``hint`` what may help.
+    """
+
+    value: float
+    unit: str
+    lack: str = ""
+    hint: str = ""
 
     @property
-    def feasible(self) -> bool:
-        """Whether the posture can be held."""
-        return self.thrust_n >= 0.0 and self.tilt_rad >= 0.0
+    def holds(self) -> bool:
+        """Whether the limit is kept; written so that NaN violates it."""
+        return self.value >= 0.0
+
+
+Margins = Mapping[str, Margin]
+"""By the vehicle's own names, the one first that decides between two postures that both hold."""
+
+
+def least(each: Iterable[Margins]) -> Margins:
+    """Of several postures the smallest margin under each name."""
+    found: dict[str, Margin] = {}
+    for margins in each:
+        for name, margin in margins.items():
+            if name not in found or margin.value < found[name].value:
+                found[name] = margin
+    return found
+
+
+@dataclass(frozen=True)
+class Shortfall:
+    """Why no posture does what is asked, and what may help. It is falsy."""
+
+    reason: str = ""
+    hint: str = ""
+
+    def __bool__(self) -> Literal[False]:
+        return False
+
+
+Goals = Mapping[str, FramePose]
+"""Where frames shall be, by their names."""
+Loads = Mapping[str, Vector]
+"""Wrenches (6,) N, N·m, that act on frames in W while they are held there, by the frames' names."""
+FREE: Loads = {}
+"""Nothing acts on the vehicle but its weight."""
+
+
+def pushed_along(direction_W: Vector, force_n: float) -> Loads:
+    """The load of a contact: the surface pushes the tool's tip with a force along a direction."""
+    return {TOOL: np.concatenate([force_n * direction_W, np.zeros(3)])}
+
+
+class Pressing(Protocol):
+    """What a task says of how its tool is pressed on a surface."""
+
+    @property
+    def press_m(self) -> float:
+        """How far the set-point lies behind the surface."""
+        ...
+
+
+@dataclass(frozen=True)
+class DepthLaw:
+    """Contact by a set-point behind the surface: an impedance makes a force of the depth.
+
+    ``profile`` names the impedance, ``expected_force_n`` is the steady normal force that follows.
+    Raises ValueError for a depth or a force below zero.
+    """
+
+    depth_m: float
+    profile: str
+    expected_force_n: float
+    kind: Literal["depth"] = "depth"
+
+    def __post_init__(self) -> None:
+        if not (self.depth_m >= 0.0 and self.expected_force_n >= 0.0):
+            raise ValueError(f"depth {self.depth_m} m and force {self.expected_force_n} N are ≥ 0")
+
+
+@dataclass(frozen=True)
+class ForceLaw:
+    """Contact by a normal force that is controlled itself; the set-point is on the surface.
+
+    Raises ValueError for a force below zero.
+    """
+
+    force_n: float
+    kind: Literal["force"] = "force"
+
+    def __post_init__(self) -> None:
+        if not self.force_n >= 0.0:
+            raise ValueError(f"force {self.force_n} N is ≥ 0")
+
+    @property
+    def depth_m(self) -> float:
+        """How far the set-point lies behind the surface."""
+        return 0.0
+
+    @property
+    def expected_force_n(self) -> float:
+        """The steady normal force."""
+        return self.force_n
+
+
+ContactLaw = DepthLaw | ForceLaw
+"""How a vehicle presses its tool on a surface."""
 
 
 class Capabilities(Protocol):
     """What planning and guidance may know of a vehicle; computed on its nominal model."""
 
     @property
+    def tasks(self) -> frozenset[str]:
+        """The kinds of tasks that its modes can do, by their names in the mission."""
+        ...
+
+    @property
     def lengths(self) -> Lengths:
-        """The numbers that shapes in records refer to (``n_rotors``, ``n_joints``, ``n_arm``)."""
+        """The numbers that shapes in records refer to; see ``inspect_cli.records``."""
         ...
 
     @property
@@ -77,46 +201,44 @@ class Capabilities(Protocol):
         """Height of O_b over the ground when the vehicle stands on its landing gear."""
         ...
 
-    def tool_pose(self, posture: Posture) -> tuple[Vector, Matrix]:
-        """(p_WT, R_WT) of a posture."""
+    @property
+    def frames(self) -> tuple[str, ...]:
+        """The names of the frames that goals and loads may name; ``TOOL`` is one of them."""
         ...
 
-    def posture_for_tool(self, p_WT: Vector, R_WT: Matrix, near: Posture) -> Posture | None:
-        """The posture that puts the tool there, the closest to ``near``; None if there is none."""
+    def frame_pose(self, posture: Posture, frame: str) -> tuple[Vector, Matrix]:
+        """(p_WF, R_WF) of a frame in a posture."""
+        ...
+
+    def solve(self, goals: Goals, loads: Loads, near: Posture) -> Posture | Shortfall:
+        """The posture that puts frames there at rest under the loads, the closest to ``near``.
+
+        A rigid vehicle that can push in every direction inverts its kinematics and ignores the
+        loads; one whose thrusts are parallel pitches to carry them; an arm asks its inverse
+        kinematics.
+        """
         ...
 
     def collision_spheres(self, posture: Posture) -> Points:
         """Spheres (n, 4) = (p_W, radius) that cover the vehicle but the tool's last part."""
         ...
 
-    def margins(self, posture: Posture, wrench_tool_W: Vector) -> Margins:
-        """Actuator margins at rest with the contact wrench (6,) acting on the tool's tip in W."""
+    def margins(self, posture: Posture, loads: Loads) -> Margins:
+        """What is left of the vehicle's limits at rest under the loads."""
         ...
 
     @property
     def impedances(self) -> tuple[str, ...]:
-        """The names of the impedance profiles, in the order that ``Reference.impedance`` counts."""
+        """Profiles that a mission may name, in the order that ``Reference.impedance`` counts."""
         ...
 
-    def press_force(self, press_m: float, impedance: str) -> float:
-        """Steady normal contact force, N, with the set-point ``press_m`` behind the surface."""
+    def contact_law(self, pressing: Pressing, profile: str) -> ContactLaw:
+        """What a task's way of pressing means for this vehicle, flown with a profile."""
         ...
 
-    def hover_power_w(self, posture: Posture) -> float:
-        """Electrical power at rest, W, by the platform's stated model."""
+    def power_w(self, posture: Posture, loads: Loads) -> float:
+        """Electrical power, W, at rest under the loads, by the platform's stated model."""
         ...
-
-
-@dataclass(frozen=True)
-class DepthImage:
-    """A sample of a depth camera.
-
-    ``points_D`` (rows · columns, 3) m, in the camera's frame D, NaN for pixels without a return;
-    the camera overwrites them with its next image.
-    """
-
-    t_s: float
-    points_D: Points
 
 
 class FlightStack(Protocol):
@@ -165,17 +287,4 @@ class FlightStack(Protocol):
 
     def believed(self, frame: str) -> tuple[Vector, Matrix]:
         """(p, R) in W of a frame of the vehicle by the estimate: ``tool``, or a camera's name."""
-        ...
-
-
-class Sensor(Protocol):
-    """A simulated instrument. It reads the truth and writes its own measurement."""
-
-    @property
-    def measurement(self) -> Record:
-        """The record that ``sample`` fills."""
-        ...
-
-    def sample(self, state: State) -> None:
-        """Measure now."""
         ...

@@ -9,8 +9,9 @@ length one (``.array``): cheap to hand to a kernel, and one assignment logs it.
     estimate.p_WB[:] = 0.0        # a view into the array
     estimate.t_s = 0.0            # scalars are assigned
 
-Shapes may name a length that the vehicle decides: ``n_rotors``, ``n_joints`` (tilts, then arm)
-and ``n_arm`` (the arm's share of the joints); one that it does not name is 0.
+Shapes may name a length that the vehicle decides: ``n_rotors``, ``n_joints`` (measured),
+``n_servos`` (commanded by angle), ``n_drives`` (by speed) and ``n_arm`` (stated by a posture);
+one not named is 0.
 
 Frames: see ``inspect_cli.spatial``.
 """
@@ -18,13 +19,14 @@ Frames: see ``inspect_cli.spatial``.
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
 from enum import IntEnum
-from typing import Any, ClassVar, Self, overload
+from typing import Any, ClassVar, Self, TypeAlias, overload
 
 import numpy as np
 from numpy.typing import ArrayLike
 
-from inspect_cli.spatial.arrays import Structured, Vector
+from inspect_cli.spatial.arrays import Points, Structured, Vector
 
 Lengths = Mapping[str, int]
 NO_LENGTHS: Lengths = {}
@@ -312,8 +314,33 @@ class Command(Record):
     wrench_B = vector(6, "N, N·m", "B", "wrench that the control law asks for")
     allocated_B = vector(6, "N, N·m", "B", "wrench that the allocation could grant")
     rotor_thrust = vector("n_rotors", "N", "", "thrust asked of each rotor")
-    joint_angle = vector("n_joints", "rad", "", "angle asked of tilt and arm joints")
+    joint_angle = vector("n_servos", "rad", "", "angle asked of tilt and arm joints")
+    drive_speed = vector("n_drives", "rad/s", "", "speed asked of driven wheels")
     saturated = scalar("1", "1 if the allocation had to scale the wrench down, else 0")
+
+
+@dataclass(frozen=True)
+class DepthImage:
+    """One image of a depth camera. It is not logged as a row: see ``SurfaceEstimate``."""
+
+    t_s: float
+    image: Points
+    """The measured points (rows, columns, 3), m, in the camera's frame D; NaN for pixels without a
+    return. The camera writes its next image into the same memory."""
+
+    @property
+    def points_D(self) -> Points:
+        """The points of ``image`` as (rows · columns, 3)."""
+        return self.image.reshape(-1, 3)
+
+    @property
+    def views(self) -> dict[str, Points]:
+        """The measured numbers by name, as those of a record."""
+        return {"image": self.image}
+
+
+Measurement: TypeAlias = Record | DepthImage
+"""What a sensor returns."""
 
 
 CORE_RECORDS: tuple[type[Record], ...] = (

@@ -6,9 +6,10 @@ reach, and not beyond the edge of what was surveyed:
     cell_i = Voronoi cell of i ∩ rectangle around i of 2 h_u by 2 h_v ∩ surveyed region
 
 On a grid h is half the spacing: every reading of a full grid, those at its edge too, stands for
-exactly Δu Δv, and n of them for n Δu Δv; a reading that is missing leaves its share unmeasured. A
-list that is no grid has h of one and a half typical spacings, so that only real gaps stay open, and
-its region is the convex hull of its readings grown by half a spacing, as on a grid.
+exactly Δu Δv, and n of them for n Δu Δv; a reading that is missing leaves its share unmeasured.
+Where the plan of a flight states the cell of each point, h is half of that. A list that is no grid
+has h of one and a half typical spacings, so that only real gaps stay open, and its region is the
+convex hull of its readings grown by half a spacing, as on a grid.
 
 The cells do not overlap; their sum is the area that was measured. Readings without a valid
 potential keep their cell, so that a failed reading is not covered up by its neighbours.
@@ -59,22 +60,29 @@ class Cells:
 
 
 def cells_of(
-    uv_m: Points, spacing: Spacing | None, region: BaseGeometry | None = None
+    uv_m: Points,
+    spacing: Spacing | None,
+    region: BaseGeometry | None = None,
+    cell_m: Points | None = None,
 ) -> Cells | None:
     """The cells of n different places (n, 2); None without any, or without a spacing.
 
     Args:
         uv_m: places, m; no two the same.
-        spacing: of ``spacing_of``.
+        spacing: of ``spacing_of``, or of ``spacing_of_cells``.
         region: the surveyed part of the surface in (u, v), m, where it is known: a polygon of
             shapely, with holes where nothing was to be measured.
+        cell_m: widths (n, 2) along u and v of the rectangle that each place stands for, where the
+            plan states them.
     """
     if spacing is None or not len(uv_m):
         return None
     scale = np.array([spacing.u_m, spacing.v_m])
-    reach = (GRID_REACH if spacing.is_grid else IRREGULAR_REACH) * scale
+    stated = spacing.is_grid or cell_m is not None
+    widths = np.broadcast_to(scale, uv_m.shape) if cell_m is None else cell_m
+    reach = (GRID_REACH if stated else IRREGULAR_REACH) * widths
     corner, places = from_corner(uv_m)
-    edges = np.zeros((0, 3)) if spacing.is_grid else _hull_edges(places, 0.5 * scale)
+    edges = np.zeros((0, 3)) if stated else _hull_edges(places, 0.5 * scale)
     cells = _cut_cells(places, reach, edges, spacing)
     cells = replace(cells, corners_m=cells.corners_m + corner)
     if region is None:
@@ -91,7 +99,7 @@ def _hull_edges(uv_m: Points, margin: Vector) -> Points:
     return np.asarray(np.unique(np.round(ConvexHull(grown).equations, 12), axis=0))
 
 
-def _cut_cells(uv_m: Points, reach: Vector, edges: Points, spacing: Spacing) -> Cells:
+def _cut_cells(uv_m: Points, reach: Points, edges: Points, spacing: Spacing) -> Cells:
     """Cut each cell by its nearest neighbours, by more of them where these may not be enough."""
     from scipy.spatial import cKDTree
 
@@ -120,7 +128,7 @@ def cut_cells(
     uv_m: Points,
     chosen: NDArray[np.int64],
     around: NDArray[np.int64],
-    reach: Vector,
+    reach: Points,
     edges: Points,
     corners: Points,
 ) -> tuple[Vector, NDArray[np.int64], NDArray[np.bool_]]:
@@ -130,7 +138,7 @@ def cut_cells(
         uv_m: places (n, 2), m.
         chosen: places to cut (k,).
         around: their neighbours (k, m), the nearest first.
-        reach: half the sides (2,) of the rectangle.
+        reach: half the sides (n, 2) of the rectangle around each place.
         edges: half planes (e, 3) that every cell lies in.
         corners: (k (4 + e + m), 2), written to: all corners, one cell after the other.
 
@@ -145,14 +153,15 @@ def cut_cells(
     written = 0
     for row in range(k):
         u, v = uv_m[chosen[row], 0], uv_m[chosen[row], 1]
+        half_u, half_v = reach[chosen[row], 0], reach[chosen[row], 1]
         for c in range(4):  # from the lower left, counter-clockwise
-            cell[c, 0] = reach[0] if c == 1 or c == 2 else -reach[0]
-            cell[c, 1] = reach[1] if c >= 2 else -reach[1]
+            cell[c, 0] = half_u if c == 1 or c == 2 else -half_u
+            cell[c, 1] = half_v if c >= 2 else -half_v
         count = 4
         for e in range(len(edges)):
             a, b = edges[e, 0], edges[e, 1]
             room = -(edges[e, 2] + a * u + b * v)
-            if room < abs(a) * reach[0] + abs(b) * reach[1]:
+            if room < abs(a) * half_u + abs(b) * half_v:
                 count = cut(cell, count, a, b, room, kept)
         for j in around[row]:
             du, dv = uv_m[j, 0] - u, uv_m[j, 1] - v

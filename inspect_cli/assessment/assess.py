@@ -16,7 +16,7 @@ from inspect_cli.assessment.electrodes import CSE, basis_of
 from inspect_cli.assessment.gradient import Minima, Steps, minima_of, steps_of
 from inspect_cli.assessment.mixture import Mixture, fitted
 from inspect_cli.assessment.readings import Merged, Readings, merged
-from inspect_cli.assessment.spacing import Spacing, neighbours, spacing_of
+from inspect_cli.assessment.spacing import Spacing, neighbours, spacing_of, spacing_of_cells
 from inspect_cli.assessment.uncertainty import Budget, budget_of, class_probabilities, doubtful
 from inspect_cli.schema.assessment import Basis, SurfaceAssessment
 from inspect_cli.spatial.arrays import Points, Vector
@@ -77,7 +77,7 @@ def assess(
     readings: Readings,
     *,
     basis: Basis | None = None,
-    pitch_m: float | None = None,
+    cell_m: Points | None = None,
     region: BaseGeometry | None = None,
     electrodes: int = 1,
 ) -> Assessed:
@@ -89,7 +89,9 @@ def assess(
         surface: its name.
         readings: potentials against CSE at 22.2 °C (``electrodes.to_standard``).
         basis: how they were made that; by default they were read so at a temperature not known.
-        pitch_m: the spacing of the grid where it is known; else it is told from the points.
+        cell_m: widths (n, 2), m, along u and v of the rectangle that each reading stands for, where
+            a plan states them, NaN where it does not know; else they are told from the places.
+            Repeated readings of a place stand for what the first does.
         region: the surveyed part of the surface, a shapely polygon in (u, v); else see ``areas``.
         electrodes: how many took the readings; any number above 1 means two.
     """
@@ -97,7 +99,10 @@ def assess(
     places = merged(readings)
     points = places.readings
     uv, potential, rho = points.uv_m, points.potential_v, points.resistivity_ohm_m
-    spacing = spacing_of(uv, pitch_m)
+    stated_m = None
+    if cell_m is not None and len(points):
+        stated_m = cell_m[np.unique(places.member, return_index=True)[1]]
+    spacing = spacing_of(uv) if stated_m is None else spacing_of_cells(stated_m)
     pairs = np.zeros((0, 2), np.intp)
     if spacing is not None:
         valid = np.flatnonzero(points.valid)
@@ -112,7 +117,7 @@ def assess(
         verdict=classes.verdict_codes(potential, rho),
         typical=compatible(potential),
         spacing=spacing,
-        cells=cells_of(uv, spacing, region),
+        cells=cells_of(uv, spacing, region, stated_m),
         minima=minima_of(uv, potential, pairs),
         steps=steps_of(uv, potential, pairs, spacing),
         mixture=fitted(potential),

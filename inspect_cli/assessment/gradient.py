@@ -47,7 +47,7 @@ from inspect_cli.assessment.classes import millivolts
 from inspect_cli.assessment.spacing import Spacing, side_by_side
 from inspect_cli.assessment.uncertainty import LIMIT_OVER_SD
 from inspect_cli.compiled import kernel
-from inspect_cli.schema.tasks import CLOSER_SPACING_MV
+from inspect_cli.schema.tasks.coverage import CLOSER_SPACING_MV
 from inspect_cli.spatial.arrays import Points, Vector
 
 RISE_MV: Final = 100.0

@@ -1,8 +1,9 @@
 """How far apart readings lie, and which of them are neighbours.
 
 Surveys come as grids, with gaps and with points added between, and as plain lists. ``spacing_of``
-tells the two apart; what depends on neighbours measures distances in units of the spacing, so that
-a grid of 0.25 by 0.5 m has neighbours along both axes.
+tells the two apart; the plan of a flight states its spacing (``spacing_of_cells``). What depends on
+neighbours measures distances in units of the spacing, so that a grid of 0.25 by 0.5 m has
+neighbours along both axes.
 
 Coordinates are taken as those of a plane: a surface that closes upon itself is cut open where its
 coordinates jump.
@@ -55,18 +56,27 @@ class Spacing(NamedTuple):
     is_grid: bool
 
 
-def spacing_of(uv_m: Points, pitch_m: float | None = None) -> Spacing | None:
-    """The spacing of n different places (n, 2); None for fewer than two without ``pitch_m``.
+def spacing_of_cells(cell_m: Points) -> Spacing | None:
+    """The spacing of n > 0 places with stated cells (n, 2), m; None if a cell is not known (NaN).
 
-    A stated pitch makes it a grid. Otherwise it is a grid when at least a third of the points have
-    a next one in their row, as many in their column, and half of those gaps are their median,
-    which is the spacing. Of a single row or column the other spacing is taken to be the same.
-    The spacing of points on any other line is the median gap between them, and that of any other
-    list the median distance of its points to their second nearest: 1 of a square grid, about
-    0.75/√λ of points that are strewn with λ per square metre.
+    Places with the same cell are a grid. Of several grids together it is the median, and they are
+    no grid.
     """
-    if pitch_m is not None:
-        return Spacing(pitch_m, pitch_m, True)
+    if not np.all(np.isfinite(cell_m)):
+        return None
+    u_m, v_m = (float(x) for x in np.median(cell_m, axis=0))
+    return Spacing(u_m, v_m, bool(np.all(cell_m == cell_m[0])))
+
+
+def spacing_of(uv_m: Points) -> Spacing | None:
+    """The spacing of n different places (n, 2), told from where they lie; None for fewer than two.
+
+    It is a grid when at least a third of the points have a next one in their row, as many in their
+    column, and half of those gaps are their median, which is the spacing. Of a single row or column
+    the other spacing is taken to be the same. The spacing of points on any other line is the median
+    gap between them, and that of any other list the median distance of its points to their second
+    nearest: 1 of a square grid, about 0.75/√λ of points that are strewn with λ per square metre.
+    """
     if len(uv_m) < 2:
         return None
     u_m, v_m = _grid_gap(uv_m, 0), _grid_gap(uv_m, 1)

@@ -22,6 +22,7 @@ from inspect_cli.reporting.words.language import language as language_of
 from inspect_cli.schema.explain import suggest
 from inspect_cli.schema.result import Result
 from inspect_cli.schema.survey import Georeference, LanguageCode
+from inspect_cli.schema.vehicle import HalfCellModel
 
 PDF_NAME = "report.pdf"
 Export = Literal["geojson", "ifc"]
@@ -149,5 +150,5 @@ def handed_readings(log: RunLog, result: Result) -> HandedReadings:
     return HandedReadings(
         points=result.points,
         title=log.mission().title or result.mission,
-        electrode=log.platform().sensors.half_cell.electrode,
+        electrode=log.platform().sensor(HalfCellModel).electrode,
     )

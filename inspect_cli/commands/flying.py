@@ -23,6 +23,7 @@ from inspect_cli.schema.truth import TruthModel
 from inspect_cli.simulation.loop import Ending, Flight
 from inspect_cli.truth.geometry import StructureTruth
 from inspect_cli.truth.rasters import true_rasters
+from inspect_cli.vehicles.contacts import wrench_record
 from inspect_cli.vehicles.kinds import Vehicle
 
 VERSIONED = ("inspect-cli", "mujoco", "numpy", "numba", "mcap")
@@ -82,7 +83,7 @@ def _fly(
     progress: Progress | None,
 ) -> Ending:
     lengths = vehicle.capabilities.lengths
-    with LogWriter(folder / LOG_NAME, _records(loaded.truth), lengths) as log:
+    with LogWriter(folder / LOG_NAME, _records(loaded.truth, vehicle), lengths) as log:
         _attach(log, loaded, plan, vehicle.behaviour.table, seed)
         if rasters := true_rasters(structure, plan.surfaces):
             log.attach(names.SPECIMEN, "application/zip", encoded(rasters))
@@ -100,10 +101,11 @@ def _fly(
     return ending
 
 
-def _records(truth: TruthModel) -> list[type[Record]]:
+def _records(truth: TruthModel, vehicle: Vehicle) -> list[type[Record]]:
     """The channels of a flight: without a rope, wind or cable there is nothing to say of them."""
     left_out = () if truth.loads_depend_on_the_flight else (TrueDisturbance,)
-    return [record for record in CORE_RECORDS if record not in left_out]
+    contacts = [wrench_record(contact.name) for contact in vehicle.contacts]
+    return [*(record for record in CORE_RECORDS if record not in left_out), *contacts]
 
 
 def _note_reliefs(log: LogWriter, structure: StructureTruth) -> None:

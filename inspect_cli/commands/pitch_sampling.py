@@ -48,7 +48,9 @@ from inspect_cli.schema.plan import Plan
 from inspect_cli.schema.positioning import Estimation
 from inspect_cli.schema.result import Metric
 from inspect_cli.schema.scoring import UNREAD, SurfaceScoring
-from inspect_cli.schema.tasks import ContactGrid, Coverage
+from inspect_cli.schema.tasks.contact_grid import ContactGrid
+from inspect_cli.schema.tasks.coverage import Coverage
+from inspect_cli.schema.vehicle import HalfCellModel
 from inspect_cli.sensing.half_cell import steady_readings
 from inspect_cli.simulation.randomness import component_rng
 from inspect_cli.spatial.arrays import Points, Vector
@@ -125,11 +127,11 @@ class PitchSampler:
     ) -> Iterator[tuple[str, str]]:
         """By the combined rule and by ASTM C876, at each of the places."""
         mission, platform = self._loaded.mission, self._loaded.platform
-        probe = platform.sensors.half_cell
+        probe = platform.sensor(HalfCellModel)
         error = rng.normal(0.0, POSITION_SD_M[mission.estimation], places.shape)
         across = np.column_stack([self._raster.across(places[:, 1]), np.ones(len(places))])
         volts, ohm_m, _ = self._beneath.at(places + error / across)
-        rate_hz = platform.rates.probe_hz
+        rate_hz = probe.rate_hz
         basis = basis_on(mission, self._work.on, probe.electrode)
         volts = as_evaluated(volts, basis)
         volts, ohms = steady_readings(probe, volts, ohm_m, rate_hz, work.dwell_s, rng)

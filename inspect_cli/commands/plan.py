@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import difflib
 import hashlib
+import math
 import os
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
@@ -14,9 +15,12 @@ from inspect_cli.errors import InfeasibleError, Location, Problem, SchemaError
 from inspect_cli.metrics.catalogue import METRICS
 from inspect_cli.planning.coverage import Surveyor
 from inspect_cli.planning.planner import make_plan
+from inspect_cli.schema.campaign import platform_files
 from inspect_cli.schema.coverage import CoveragePlan, CoveragePlanFile
-from inspect_cli.schema.loading import Loaded, load_mission
+from inspect_cli.schema.loading import Loaded, load_mission, load_platform, place_in_mission
+from inspect_cli.schema.nodes import Step
 from inspect_cli.schema.plan import Plan, PlanFile
+from inspect_cli.schema.vehicle import HalfCellModel, PlatformBase
 from inspect_cli.structure.drawings import drawings_of
 from inspect_cli.structure.surfaces import believed_surfaces
 from inspect_cli.vehicles import build_vehicle
@@ -67,7 +71,8 @@ def plan_loaded(loaded: Loaded, vehicle: Vehicle) -> Plan | CoveragePlan:
     Raises GeometryError and InfeasibleError with the mission's file in every problem.
     """
     _check_metrics(loaded)
-    half_cell = loaded.platform.sensors.half_cell
+    _check_tasks(loaded, vehicle)
+    cable_m, min_force_n = _probe_limits(loaded.platform)
     try:
         if loaded.mission.is_survey:
             return surveyor_of(loaded, vehicle).survey()
@@ -76,8 +81,8 @@ def plan_loaded(loaded: Loaded, vehicle: Vehicle) -> Plan | CoveragePlan:
             loaded.platform.name,
             vehicle.capabilities,
             believed_surfaces(loaded.mission, loaded.root),
-            half_cell.cable_m,
-            half_cell.min_force_n,
+            cable_m,
+            min_force_n,
             loaded.platform.battery.energy_wh,
             drawings_of(loaded.mission, loaded.root),
         )
@@ -87,16 +92,22 @@ def plan_loaded(loaded: Loaded, vehicle: Vehicle) -> Plan | CoveragePlan:
 
 def surveyor_of(loaded: Loaded, vehicle: Vehicle) -> Surveyor:
     """The planner of a mission that covers a surface."""
-    half_cell = loaded.platform.sensors.half_cell
+    cable_m, min_force_n = _probe_limits(loaded.platform)
     return Surveyor(
         loaded.mission,
         loaded.platform.name,
         vehicle.capabilities,
         believed_surfaces(loaded.mission, loaded.root),
-        half_cell.cable_m,
-        half_cell.min_force_n,
+        cable_m,
+        min_force_n,
         loaded.platform.battery.energy_wh,
     )
+
+
+def _probe_limits(platform: PlatformBase) -> tuple[float, float]:
+    """Length of the probe's cable, m, and the least force of a reading, N; of no probe none."""
+    probe = platform.find(HalfCellModel)
+    return (probe.cable_m, probe.min_force_n) if probe else (math.inf, 0.0)
 
 
 def _check_metrics(loaded: Loaded) -> None:
@@ -111,6 +122,41 @@ def _check_metrics(loaded: Loaded) -> None:
                 problems.append(Problem(f"acceptance: no metric is named '{name}'", hint=hint))
     if problems:
         raise SchemaError(_placed(problems, loaded.mission_file))
+
+
+def _check_tasks(loaded: Loaded, vehicle: Vehicle) -> None:
+    """Refuse a task that the vehicle's modes cannot do."""
+    known = vehicle.capabilities.tasks
+    refused = [(k, t.kind) for k, t in enumerate(loaded.mission.tasks) if t.kind not in known]
+    if not refused:
+        return
+    able = _abilities(loaded)
+    problems = []
+    for k, kind in refused:
+        others = sorted(name for name, tasks in able.items() if kind in tasks)
+        what = f"{loaded.platform.name} cannot do the task '{kind}'"
+        hint = f"it can do: {', '.join(sorted(known)) or 'none'}; "
+        hint += f"platforms that can: {', '.join(others) or 'none'}"
+        problems.append(Problem(what, _place_of(loaded, ("tasks", k, kind)), hint))
+    raise SchemaError(problems)
+
+
+def _abilities(loaded: Loaded) -> dict[str, frozenset[str]]:
+    """What each of the campaign's platforms can do, by its name; without those that are refused."""
+    able = {}
+    for name, file in platform_files(loaded.root).items():
+        try:
+            able[name] = build_vehicle(load_platform(file)).capabilities.tasks
+        except SchemaError:
+            continue
+    return able
+
+
+def _place_of(loaded: Loaded, steps: Sequence[Step]) -> Location:
+    """Where the mission states the value at ``steps``; its file alone where that is gone."""
+    if not loaded.mission_file.is_file():
+        return Location(str(loaded.mission_file))
+    return place_in_mission(loaded.mission_file, steps)
 
 
 def _placed(problems: Sequence[Problem], file: Path) -> list[Problem]:

@@ -27,6 +27,7 @@ from inspect_cli.reporting.words.published import TABLE_IV
 from inspect_cli.reporting.words.text import say
 from inspect_cli.schema.loading import Loaded
 from inspect_cli.schema.study import StudyColumn
+from inspect_cli.schema.vehicle import ControlModel, ImpedancePlatform, PlatformBase
 
 
 def lag_contact_rmse(flight: Flight) -> float:
@@ -37,12 +38,19 @@ def lag_contact_rmse(flight: Flight) -> float:
     """
     force = measured_force(flight)[:, 0]
     period_s = float(np.median(np.diff(flight.state["t_s"])))
-    lagged = first_order_response(force, period_s, flight.platform.control.observer_gain[0])
+    lagged = first_order_response(force, period_s, _control(flight.platform).observer_gain[0])
     return root_mean_square((lagged - force)[flight.off_ground & flight.touching])
 
 
+def _control(platform: PlatformBase) -> ControlModel:
+    """The gains of a platform that flies by selective impedance."""
+    if not isinstance(platform, ImpedancePlatform):
+        raise InputError(f"{platform.name} has no momentum observer, whose gain this study varies")
+    return platform.control
+
+
 def _gain(loaded: Loaded) -> float:
-    gain, *others = loaded.platform.control.observer_gain
+    gain, *others = _control(loaded.platform).observer_gain
     if any(other != gain for other in others):
         what = f"{loaded.platform.name} has another observer_gain along each axis"
         raise InputError(Problem(what, Location(str(loaded.platform_file)), "make them equal"))
@@ -51,7 +59,7 @@ def _gain(loaded: Loaded) -> float:
 
 def _with_gain(loaded: Loaded, gain: float) -> Loaded:
     platform = loaded.platform
-    control = revalidated(platform.control, observer_gain=(gain, gain, gain))
+    control = revalidated(_control(platform), observer_gain=(gain, gain, gain))
     return replace(loaded, platform=revalidated(platform, control=control))
 
 

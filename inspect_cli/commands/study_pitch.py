@@ -49,7 +49,8 @@ from inspect_cli.schema.coverage import CoveragePlan
 from inspect_cli.schema.loading import Loaded
 from inspect_cli.schema.plan import Plan
 from inspect_cli.schema.study import StudyColumn, StudyResult, StudyVariant, Threshold
-from inspect_cli.schema.tasks import ContactGrid, Coverage
+from inspect_cli.schema.tasks.contact_grid import ContactGrid
+from inspect_cli.schema.tasks.coverage import Coverage
 from inspect_cli.spatial.arrays import Points
 from inspect_cli.truth.rasters import all_beneath
 

@@ -86,10 +86,11 @@ def join(
     ``rasters`` are what is truly so, for the points of all sorties to be held against.
     """
     mission = loaded.mission
-    score_all = scorer(rasters, mission)
+    targets = survey.joined().targets
+    score_all = scorer(rasters, targets)
     flown = sum(len(sortie.plan.targets) for sortie in survey.sorties[: len(results)])
-    unvisited = survey.joined().targets[flown:]
-    assess_all = assessor(mission, loaded.platform)
+    unvisited = targets[flown:]
+    assess_all = assessor(mission, loaded.platform, targets)
     return joined_result(results, unvisited, mission.acceptance, seed, score_all, assess_all)
 
 

@@ -99,8 +99,8 @@ def report_survey(
     plan = survey.joined()
     unvisited = plan.targets[flown:]
     mission = first.mission()
-    score_all = scorer(first.true_rasters(), mission)
-    assess_all = assessor(mission, first.platform())
+    score_all = scorer(first.true_rasters(), plan.targets)
+    assess_all = assessor(mission, first.platform(), plan.targets)
     survey_evaluation = joined_evaluation(
         results, unvisited, mission.acceptance, _seed(run), score_all, assess_all
     )

@@ -14,7 +14,7 @@ import numpy as np
 
 from inspect_cli.compiled import kernel
 from inspect_cli.records import SurfaceEstimate
-from inspect_cli.schema.vehicle import TofModel
+from inspect_cli.schema.vehicle import DepthCameraModel
 from inspect_cli.spatial.arrays import Matrix, Points, Vector
 from inspect_cli.spatial.rotations import turned
 
@@ -34,17 +34,18 @@ MIN_COSINE = 0.26
 class LocalSurface:
     """The least-squares plane through the points around the tool's axis."""
 
-    def __init__(self, model: TofModel) -> None:
+    def __init__(self, model: DepthCameraModel) -> None:
         self.model = model
 
     def update(
         self, points_D: Points, p_WD: Vector, p_WT: Vector, R_WT: Matrix, out: SurfaceEstimate
     ) -> None:
-        """Fit ``points_D`` (n, 3), m, in D (NaN for misses) and pose the plane in W.
+        """Fit ``points_D`` (n, 3), m (NaN for misses), and pose the plane in W.
 
-        ``p_WD`` (3,) m is where the camera is believed to be, ``p_WT`` (3,) m and ``R_WT`` (3, 3)
-        the tool. ``out.valid`` is 0 when there are too few points, when they are no plane or no
-        more than a line, or when anything is not a number.
+        The points are from the camera's centre, along the tool's axes. ``p_WD`` (3,) m is where
+        the camera is believed to be, ``p_WT`` (3,) m and ``R_WT`` (3, 3) the tool. ``out.valid``
+        is 0 when there are too few points, when they are no plane or no more than a line, or when
+        anything is not a number.
         """
         n_points, distance, rms, spread, cosine, range_ = fit_local_plane(
             points_D,

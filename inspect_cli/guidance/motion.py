@@ -66,8 +66,8 @@ class Motion:
     @classmethod
     def at_rest(cls, posture: Posture) -> Motion:
         """The posture, held."""
-        arm = np.zeros((3, len(posture.arm_angle)))
-        arm[0] = posture.arm_angle
+        arm = np.zeros((3, len(posture.joint_angle)))
+        arm[0] = posture.joint_angle
         return cls(
             np.array(posture.p_WB, dtype=np.float64),
             quaternion_normalize(np.array(posture.q_WB, dtype=np.float64)),

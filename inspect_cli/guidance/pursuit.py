@@ -37,7 +37,15 @@ from inspect_cli.guidance.trajectory import (
     to_stop,
     turn_between,
 )
-from inspect_cli.interfaces import Capabilities, Posture, at_origin
+from inspect_cli.interfaces import (
+    FREE,
+    TOOL,
+    Capabilities,
+    FramePose,
+    Posture,
+    at_origin,
+    pushed_along,
+)
 from inspect_cli.records import Reference, SurfaceEstimate
 from inspect_cli.schema.plan import Target
 from inspect_cli.spatial.arrays import Matrix, Structured, Vector
@@ -82,7 +90,7 @@ class Pursuit:
         self.capabilities = capabilities
         self.reference = Reference.create(capabilities.lengths)
         self.reference.target = -1.0
-        self.reference.arm_angle[:] = posture.arm_angle
+        self.reference.arm_angle[:] = posture.joint_angle
         self.implausible = 0
         """Surface estimates that were not followed because they contradict what is believed."""
         self.tracks_surface = False
@@ -313,7 +321,7 @@ class Pursuit:
         # Over a horizon the tool turns by so little that the rate of φ is the body's.
         turning = turn_between(now.q_WB, goal.q_WB), rotate_back(np.asarray(goal.q_WB), w_W)
         stretch = Stretch.to_motion(
-            t_s, now, passing, turning, np.asarray(goal.arm_angle), HORIZON_S, HORIZON_S
+            t_s, now, passing, turning, np.asarray(goal.joint_angle), HORIZON_S, HORIZON_S
         )
         limits = MotionLimits.of(self.capabilities)
         braking = to_stop(stretch.end_s, stretch.motion(stretch.end_s), limits)
@@ -322,20 +330,20 @@ class Pursuit:
 
     def _tool(self, motion: Motion) -> tuple[Vector, Matrix]:
         """(p_WT, R_WT) of the reference in a motion."""
-        return self.capabilities.tool_pose(Posture(motion.p_WB, motion.q_WB, motion.arm[0]))
+        posture = Posture(motion.p_WB, motion.q_WB, motion.arm[0])
+        return self.capabilities.frame_pose(posture, TOOL)
 
     def _tool_offset(self) -> Vector:
         """p_BT (3,) with the arm as it is asked now."""
-        p_BT, _ = self.capabilities.tool_pose(at_origin(self._arm_angle))
+        p_BT, _ = self.capabilities.frame_pose(at_origin(self._arm_angle), TOOL)
         return np.array(p_BT, dtype=np.float64)
 
     def _posture_for(self, target: Target, aim: Aim, depth_m: float) -> Posture | None:
-        """The posture with the tip ``depth_m`` behind the surface, the closest to the planned."""
-        return self.capabilities.posture_for_tool(
-            aim.set_point(depth_m), aim.R_WT, planned_posture(target)
-        )
+        """The posture with the tip ``depth_m`` behind the surface, the closest to the planned.
 
-
-def planned_posture(target: Target) -> Posture:
-    """The posture of the target's contact, by the plan."""
-    return target.contact.posture
+        Where the set-point lies behind it, the surface pushes with the force that the plan
+        expects.
+        """
+        goals = {TOOL: FramePose(aim.set_point(depth_m), aim.R_WT)}
+        loads = pushed_along(aim.n_W, target.expected_force_n) if depth_m > 0.0 else FREE
+        return self.capabilities.solve(goals, loads, target.contact.posture) or None

@@ -106,7 +106,7 @@ def along(t_s: float, path: StrokePath, posture_at: PostureAt) -> list[Stretch]:
     rows = (
         np.array([posture.p_WB for posture in postures]),
         np.array([turn_between(q_0, posture.q_WB) for posture in postures]),
-        np.array([posture.arm_angle for posture in postures]),
+        np.array([posture.joint_angle for posture in postures]),
     )
     position, rotation, arm = (_quintics(times, values) for values in rows)
     step = path.duration_s / count

@@ -205,7 +205,7 @@ def to_goal(
     """
     p_goal = np.asarray(goal.p_WB, dtype=np.float64)
     phi = turn_between(start.q_WB, goal.q_WB)
-    arm = np.asarray(goal.arm_angle, dtype=np.float64)
+    arm = np.asarray(goal.joint_angle, dtype=np.float64)
     if arm.shape != start.arm[0].shape:
         raise ValueError(f"the arm has {start.arm.shape[1]} joints, its goal {arm.size} angles")
     duration = max(at_least_s, SHORTEST_S)

@@ -61,6 +61,7 @@ class LogWriter:
         self._chunk_s = chunk_s
         self._due_s = chunk_s
         self._closed = False
+        self._lengths = lengths
         self._rows = {record: self._row_queue(record, lengths) for record in records}
         self._poses: dict[str, RowQueue] = {}
         self._messages: dict[str, MessageQueue] = {}
@@ -68,6 +69,11 @@ class LogWriter:
     def attach(self, name: str, media_type: str, data: bytes) -> None:
         """Store a file in the log."""
         self._file.attach(name, media_type, data)
+
+    def declare(self, record: type[Record]) -> None:
+        """Make a channel for a record type that ``records`` did not name."""
+        if record not in self._rows:
+            self._rows[record] = self._row_queue(record, self._lengths)
 
     def log(self, record: Record) -> None:
         """Copy one row."""

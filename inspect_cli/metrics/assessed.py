@@ -14,8 +14,10 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from inspect_cli.assessment.electrodes import basis_of
+from inspect_cli.metrics.planned_cells import PlannedCells, planned_cells, widths_of
 from inspect_cli.schema.assessment import Basis
 from inspect_cli.schema.mission import Mission
+from inspect_cli.schema.plan import Target
 from inspect_cli.schema.result import PointResult
 from inspect_cli.schema.vehicle import HalfCellModel, PlatformBase
 from inspect_cli.spatial.arrays import Vector
@@ -27,15 +29,18 @@ AssessAll = Callable[[Sequence[PointResult]], "tuple[Assessed, ...]"]
 
 
 def assess_points(
-    points: Sequence[PointResult], mission: Mission, probe: HalfCellModel
+    points: Sequence[PointResult],
+    mission: Mission,
+    probe: HalfCellModel | None,
+    cells: PlannedCells,
 ) -> tuple[Assessed, ...]:
     """The findings of each surface that has points, in the order in which it first appears.
 
-    Points that lie on no known surface belong to none. The pitch of a grid or a coverage is the
-    mission's; where a surface has single points or several pitches, the points tell the spacing.
+    ``probe`` took the readings; without one there are none to assess. Points that lie on no known
+    surface belong to none. What a point stands for is the plan's cell.
     """
     surfaces = dict.fromkeys(p.surface for p in points if p.surface and p.uv_m is not None)
-    if not surfaces:
+    if not surfaces or probe is None:
         return ()
     from inspect_cli.assessment.assess import assess
     from inspect_cli.assessment.readings import readings_of
@@ -45,13 +50,14 @@ def assess_points(
         own = _on(surface, points)
         readings = readings_of(own, measurement_sd_v(own, probe))
         basis = basis_on(mission, surface, probe.electrode)
-        assessed.append(assess(surface, readings, basis=basis, pitch_m=pitch_on(mission, surface)))
+        assessed.append(assess(surface, readings, basis=basis, cell_m=widths_of(own, cells)))
     return tuple(assessed)
 
 
-def assessor(mission: Mission, platform: PlatformBase) -> AssessAll:
-    """What assesses all points of a survey."""
-    return partial(assess_points, mission=mission, probe=platform.sensors.half_cell)
+def assessor(mission: Mission, platform: PlatformBase, targets: Iterable[Target]) -> AssessAll:
+    """What assesses all points of a survey, whose flights go to these targets."""
+    probe, cells = platform.find(HalfCellModel), planned_cells(targets)
+    return partial(assess_points, mission=mission, probe=probe, cells=cells)
 
 
 def with_uncertainty(
@@ -70,14 +76,6 @@ def basis_on(mission: Mission, surface: str | None, electrode: str) -> Basis:
     """What the potentials on a surface rest on: the probe's electrode, the stated temperature."""
     stated = {known.name: known.temperature_c for known in mission.structure}
     return basis_of(electrode, stated.get(surface or ""))
-
-
-def pitch_on(mission: Mission, surface: str) -> float | None:
-    """The pitch of the grids on a surface; None where something else is read there, too."""
-    tasks = [task for task in mission.tasks if task.on == surface and task.instrument]
-    works = [task.contact_grid or task.coverage for task in tasks]
-    pitches = {None if work is None else work.pitch_m for work in works}
-    return pitches.pop() if len(pitches) == 1 else None
 
 
 def measurement_sd_v(points: Sequence[PointResult], probe: HalfCellModel) -> Vector:

@@ -15,11 +15,13 @@ import numpy as np
 from inspect_cli.metrics.assessed import assess_points
 from inspect_cli.metrics.flight import Flight, NotMeasured
 from inspect_cli.metrics.joined import ANEW
+from inspect_cli.metrics.planned_cells import planned_cells
 from inspect_cli.metrics.points import point_results
 from inspect_cli.metrics.spec import MetricSpec
 from inspect_cli.records import Reading
 from inspect_cli.schema.assessment import SurfaceAssessment
 from inspect_cli.schema.result import Metric
+from inspect_cli.schema.vehicle import HalfCellModel
 from inspect_cli.spatial.arrays import Vector
 
 if TYPE_CHECKING:
@@ -129,7 +131,8 @@ def _function(finding: Finding) -> Callable[[Flight], float]:
     def value(flight: Flight) -> float:
         _ = flight.read_targets  # without them there is nothing to assess
         points = point_results(flight)
-        assessed = assess_points(points, flight.mission, flight.platform.sensors.half_cell)
+        probe = flight.platform.find(HalfCellModel)
+        assessed = assess_points(points, flight.mission, probe, planned_cells(flight.plan.targets))
         if not assessed:
             raise NotMeasured("no point to read lies on a known surface")
         return finding.value(assessed)

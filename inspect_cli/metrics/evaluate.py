@@ -16,12 +16,14 @@ from inspect_cli.metrics.catalogue_assessment import assessment_metrics
 from inspect_cli.metrics.catalogue_scoring import metrics_of
 from inspect_cli.metrics.evaluation import Evaluation
 from inspect_cli.metrics.flight import Flight, NotMeasured
+from inspect_cli.metrics.planned_cells import planned_cells
 from inspect_cli.metrics.points import point_results
 from inspect_cli.metrics.spec import MetricSpec
 from inspect_cli.metrics.truth_scoring import scoring_of
 from inspect_cli.records import Reading
 from inspect_cli.schema.result import Metric, PointResult, Result
 from inspect_cli.schema.scoring import Scoring
+from inspect_cli.schema.vehicle import HalfCellModel
 
 if TYPE_CHECKING:
     from inspect_cli.assessment.assess import Assessed
@@ -71,7 +73,8 @@ def _assessed(flight: Flight, points: Sequence[PointResult]) -> tuple[Assessed, 
     """The findings of every surface; none of a log that has no readings."""
     if flight.log.rows(Reading) is None:
         return ()
-    return assess_points(points, flight.mission, flight.platform.sensors.half_cell)
+    probe = flight.platform.find(HalfCellModel)
+    return assess_points(points, flight.mission, probe, planned_cells(flight.plan.targets))
 
 
 def _scoring(flight: Flight) -> Scoring | None:

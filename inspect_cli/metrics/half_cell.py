@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from inspect_cli.assessment.classes import astm_class
 from inspect_cli.metrics.flight import Flight, NotMeasured
-from inspect_cli.metrics.points import point_results
+from inspect_cli.metrics.points import point_results, probe_of
 from inspect_cli.records import Reading
 from inspect_cli.schema.result import PointResult
 
@@ -42,7 +42,7 @@ def false_valid_points(flight: Flight) -> float:
     The true normal force, mean over the last 2 s of the dwell, is below the least force of the
     probe's rule less three standard deviations of its load cell.
     """
-    probe = flight.platform.sensors.half_cell
+    probe = probe_of(flight)
     least_n = probe.min_force_n - 3.0 * probe.force_noise_n
     _ = flight.reference  # without the truth nothing can be said
     return float(

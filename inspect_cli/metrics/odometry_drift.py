@@ -21,7 +21,7 @@ import numpy as np
 
 from inspect_cli.metrics.flight import Flight, NotMeasured, mean
 from inspect_cli.metrics.geometry import attitude_angle
-from inspect_cli.schema.positioning import OdometryModel
+from inspect_cli.schema.vehicle import OdometryModel
 from inspect_cli.spatial.arrays import Mask, Points, Vector
 
 STEP = 10
@@ -50,7 +50,7 @@ def expected_yaw_rmse(flight: Flight) -> float:
 
 
 def _model(flight: Flight) -> OdometryModel:
-    odometry = flight.platform.sensors.odometry
+    odometry = flight.platform.find(OdometryModel)
     if odometry is None or flight.log.mission().estimation != "onboard":
         raise NotMeasured("the flight was not flown on odometry")
     truth = flight.log.truth()

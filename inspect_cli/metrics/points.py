@@ -40,8 +40,20 @@ def point_results(flight: Flight) -> tuple[PointResult, ...]:
     return tuple(_point(flight, target, last.get(target.index)) for target in read)
 
 
+def probe_of(flight: Flight) -> HalfCellModel:
+    """The half-cell that took the flight's readings.
+
+    Raises:
+        NotMeasured: the platform has none.
+    """
+    probe = flight.platform.find(HalfCellModel)
+    if probe is None:
+        raise NotMeasured("the platform has no half-cell")
+    return probe
+
+
 def _point(flight: Flight, target: Target, reading: Structured | None) -> PointResult:
-    probe = flight.platform.sensors.half_cell
+    probe = probe_of(flight)
     basis = basis_on(flight.mission, target.surface, probe.electrode)
     true = true_values(flight, target)
     read_v = _read(reading, "potential")

@@ -4,7 +4,7 @@ Position errors are in W. Attitude errors are the rotation vector Log(R_refᵀ R
 components about the body's axes are roll, pitch and yaw; it has no singular attitude.
 
 The paper compares with the body of a motion capture system, whose frame M is not quite B:
-R_WM = R_WB Exp(m) with m = ``sensors.pose.body_misalignment_rad``. Errors against M are the ones
+R_WM = R_WB Exp(m) with m = ``body_misalignment_rad`` of the tracker. Errors against M are the ones
 to hold against its Table IV; those against B are what the vehicle suffers from. The position of M
 is that of B, and the noise of the motion capture, a millimetre, is left out.
 """
@@ -16,6 +16,7 @@ import numpy as np
 from inspect_cli.metrics.flight import Flight, NotMeasured, root_mean_square
 from inspect_cli.metrics.geometry import rotation_vectors
 from inspect_cli.records import Estimate
+from inspect_cli.schema.vehicle import PoseTrackerModel
 from inspect_cli.spatial.arrays import Mask, Points, Vector
 from inspect_cli.spatial.rotations import (
     quaternion_exp,
@@ -42,7 +43,10 @@ def attitude_rmse(flight: Flight, axis: int, true_body: bool) -> float:
     estimate = flight.on_state_ticks(Estimate)["q_WB"][flying]
     reference = flight.state["q_WB"][flying]
     if not true_body:
-        misalignment = np.array(flight.platform.sensors.pose.body_misalignment_rad)
+        tracker = flight.platform.find(PoseTrackerModel)
+        if tracker is None:
+            raise NotMeasured("the platform has no tracker, whose frame this is held against")
+        misalignment = np.array(tracker.body_misalignment_rad)
         reference = turned_frames(reference, misalignment)
     return root_mean_square(rotation_vectors(reference, estimate)[:, axis])
 

@@ -14,8 +14,9 @@ from inspect_cli.metrics.catalogue_scoring import metrics_of
 from inspect_cli.metrics.evaluation import Evaluation
 from inspect_cli.metrics.flight import NotMeasured
 from inspect_cli.metrics.joined import Joined
+from inspect_cli.metrics.planned_cells import planned_cells
 from inspect_cli.metrics.truth_scoring import score
-from inspect_cli.schema.mission import Acceptance, Mission
+from inspect_cli.schema.mission import Acceptance
 from inspect_cli.schema.plan import Target
 from inspect_cli.schema.result import Metric, PointResult, Result, Status
 from inspect_cli.schema.scoring import Scoring
@@ -81,12 +82,16 @@ def joined_evaluation(
     return Evaluation(result, assessed)
 
 
-def scorer(rasters: Sequence[TrueRaster], mission: Mission) -> ScoreAll:
-    """What scores all points of a survey; None where nothing can be scored."""
+def scorer(rasters: Sequence[TrueRaster], targets: Iterable[Target]) -> ScoreAll:
+    """What scores all points of a survey, whose flights go to these targets.
+
+    It gives None where nothing can be scored.
+    """
+    cells = planned_cells(targets)
 
     def score_all(points: Sequence[PointResult]) -> Scoring | None:
         try:
-            return score(points, rasters, mission)
+            return score(points, rasters, cells)
         except NotMeasured:
             return None
 

@@ -26,10 +26,10 @@ from scipy.ndimage import label
 
 from inspect_cli.assessment.classes import sustains_corrosion
 from inspect_cli.log.rasters import TrueRaster
-from inspect_cli.metrics.cells import Cells, cells_around, spacing_of
+from inspect_cli.metrics.cells import Cells, cells_around, weighed
 from inspect_cli.metrics.flight import Flight, NotMeasured
+from inspect_cli.metrics.planned_cells import PlannedCells, planned_cells, widths_of
 from inspect_cli.metrics.points import point_results
-from inspect_cli.schema.mission import Mission
 from inspect_cli.schema.result import PointResult
 from inspect_cli.schema.scoring import (
     UNREAD,
@@ -40,7 +40,7 @@ from inspect_cli.schema.scoring import (
     Scoring,
     SurfaceScoring,
 )
-from inspect_cli.spatial.arrays import Points
+from inspect_cli.spatial.arrays import Points, Vector
 
 NO_TRUTH = "the log does not hold what is truly so beneath a surface"
 
@@ -77,23 +77,30 @@ def scoring_of(flight: Flight) -> Scoring:
     if not rasters:
         raise NotMeasured(NO_TRUTH)
     points = [point for point in point_results(flight) if point.index in wanted]
-    return score(points, rasters, flight.mission)
+    return score(points, rasters, planned_cells(flight.plan.targets))
 
 
 def score(
-    points: Sequence[PointResult], rasters: Sequence[TrueRaster], mission: Mission
+    points: Sequence[PointResult], rasters: Sequence[TrueRaster], cells: PlannedCells
 ) -> Scoring:
-    """The scoring of points, each by the surface that it lies on.
+    """The scoring of points, each by the surface that it lies on and the cell it stands for.
 
     Raises:
-        NotMeasured: no raster lies beneath any of them, or it knows nothing there.
+        NotMeasured: no raster lies beneath any of them, or it knows nothing there; or the plan
+            does not know what a point stands for, as of one that stands alone.
     """
     scored = []
     for raster in rasters:
-        judged = Judged.of([point for point in points if point.surface == raster.surface])
-        if len(judged.uv_m):
-            pitch_m = _pitch_m(mission, raster.surface, judged.uv_m)
-            scored.append(score_surface(judged, cells_around(judged.uv_m, pitch_m, raster), raster))
+        own = [point for point in points if point.surface == raster.surface and point.uv_m]
+        if not own:
+            continue
+        cell_m = widths_of(own, cells)
+        if not np.all(np.isfinite(cell_m)):
+            raise NotMeasured(
+                f"a single point on '{raster.surface}' does not say what area it stands for"
+            )
+        judged = Judged.of(own)
+        scored.append(score_surface(judged, cells_around(judged.uv_m, cell_m, raster), raster))
     known = tuple(one for one in scored if one.combined.region_m2 > 0.0)
     if not known:
         raise NotMeasured(f"{NO_TRUTH} where points were planned")
@@ -108,13 +115,15 @@ def score_surface(judged: Judged, cells: Cells, raster: TrueRaster) -> SurfaceSc
     on &= known[rows, columns]
     owner, cell_sites = cells.owner[on], sites[rows[on], columns[on]]
     ohm_m = raster.resistivity_ohm_m[rows[on], columns[on]]
-    too_resistive = np.count_nonzero((cell_sites > 0) & ~sustains_corrosion(ohm_m))
+    too_resistive = (cell_sites > 0) & ~sustains_corrosion(ohm_m)
+    each_m2 = cells.area_m2[on]
+    too_resistive_m2 = float(weighed(too_resistive.astype(np.intp), each_m2, 2)[1])
     rows, columns, on = raster.cells(judged.uv_m)
     on &= known[rows, columns]
     point_sites = np.where(on, sites[rows, columns], -1)
     each: dict[Rule, tuple[str, ...]] = {"combined": judged.combined, "astm": judged.astm}
     made = {
-        rule: _confusion(rule, each[rule], owner, cell_sites > 0, cells.area_m2, point_sites)
+        rule: _confusion(rule, each[rule], owner, cell_sites > 0, each_m2, point_sites)
         for rule in each
     }
     reached = set(np.unique(cell_sites[cell_sites > 0]).tolist())
@@ -126,7 +135,7 @@ def score_surface(judged: Judged, cells: Cells, raster: TrueRaster) -> SurfaceSc
         astm=made["astm"],
         sites_total=len(reached),
         sites_found=len(found),
-        too_resistive_m2=too_resistive * cells.area_m2,
+        too_resistive_m2=too_resistive_m2,
     )
 
 
@@ -135,13 +144,13 @@ def _confusion(
     said: tuple[str, ...],
     owner: NDArray[np.intp],
     active: NDArray[np.bool_],
-    area_m2: float,
+    each_m2: Vector,
     point_sites: NDArray[np.intp],
 ) -> Confusion:
     """Areas from samples of the region, counts from the points where the truth is known."""
     names = VERDICTS[rule]
     codes = np.array([names.index(one) for one in (*said, UNREAD)])  # the last for no owner
-    areas = np.bincount(2 * codes[owner] + active, minlength=2 * len(names)) * area_m2
+    areas = weighed(2 * codes[owner] + active, each_m2, 2 * len(names))
     at = point_sites >= 0
     truth = (point_sites[at] > 0).astype(np.intp)
     counts = np.bincount(2 * codes[:-1][at] + truth, minlength=2 * len(names))
@@ -167,19 +176,3 @@ def _sites(raster: TrueRaster) -> NDArray[np.intp]:
         if first > 0 and last > 0 and first != last:
             sites[sites == last] = first  # one site across the seam of a closed surface
     return sites
-
-
-def _pitch_m(mission: Mission, surface: str, uv_m: Points) -> float:
-    """The edge of a point's square: the mission's pitch, or the median distance of neighbours.
-
-    The smallest pitch counts where several tasks read on the surface.
-
-    Raises:
-        NotMeasured: a point that stands alone has no pitch.
-    """
-    asked = [task.contact_grid or task.coverage for task in mission.tasks if task.on == surface]
-    pitches = [work.pitch_m for work in asked if work is not None]
-    pitch_m = min(pitches) if pitches else spacing_of(uv_m)
-    if pitch_m is None:
-        raise NotMeasured(f"a single point on '{surface}' does not say what area it stands for")
-    return pitch_m

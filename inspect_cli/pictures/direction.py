@@ -8,6 +8,7 @@ from dataclasses import dataclass
 import mujoco
 import numpy as np
 
+from inspect_cli.interfaces import TOOL
 from inspect_cli.log.layout import Bytes
 from inspect_cli.log.reader import RunLog
 from inspect_cli.pictures.moments import still_moment
@@ -22,6 +23,8 @@ from inspect_cli.schema.result import Result
 from inspect_cli.spatial.arrays import Mask, Points, Vector
 from inspect_cli.spatial.patches import patch_nodes
 from inspect_cli.vehicles import build_vehicle
+from inspect_cli.vehicles.actuators import rotor_radii_m
+from inspect_cli.vehicles.kinds import Vehicle
 
 FILM_S = 10.0
 """Length of a film, s; a flight that is shorter is shown in real time."""
@@ -52,11 +55,11 @@ def direct(log: RunLog, result: Result, styles: Mapping[str, MarkStyle]) -> Dire
     """The script of a flight; None where the log holds no motion that can be drawn."""
     plan, vehicle = log.plan(), build_vehicle(log.platform())
     nominal = vehicle.nominal_spec().compile()
-    motion = motion_of(log, nominal)
+    motion = motion_of(log, nominal, vehicle)
     if motion is None:
         return None
     marks = marks_of(log, plan, result, motion, styles)
-    span_m = _span(nominal, vehicle.actuators.rotor_radius_m)
+    span_m = _span(nominal, vehicle)
     still_s, touching = still_moment(log, motion)
     film_s, speed = _film_times(motion)
     shown = _shown(plan, motion, span_m)
@@ -89,14 +92,15 @@ def _saved(model: mujoco.MjModel) -> Bytes:
     return buffer
 
 
-def _span(model: mujoco.MjModel, rotor_radius_m: float) -> float:
+def _span(model: mujoco.MjModel, vehicle: Vehicle) -> float:
     """Half the visible width of the vehicle, m."""
+    radius_m = rotor_radii_m(vehicle.actuators).max()
     data = mujoco.MjData(model)
     mujoco.mj_kinematics(model, data)
-    reach = np.linalg.norm(data.site_xpos - data.xpos[model.body("core").id], axis=1)
-    tip = model.site("tool_tip").id
+    reach = np.linalg.norm(data.site_xpos - data.xpos[model.body(vehicle.bodies.base).id], axis=1)
+    tip = model.site(TOOL).id
     others = np.delete(reach, tip)
-    return float(max(others.max(initial=0.1) + rotor_radius_m, reach[tip]))
+    return float(max(others.max(initial=0.1) + radius_m, reach[tip]))
 
 
 def _film_times(motion: Motion) -> tuple[Vector, float]:

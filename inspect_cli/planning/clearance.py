@@ -113,12 +113,12 @@ def body_reach_m(capabilities: Capabilities, posture: Posture) -> float:
 
 def _spheres_B(capabilities: Capabilities, a: Posture, b: Posture, steps: int) -> Points:
     """Spheres (1, n, 4) in B, or (steps + 1, n, 4) where the arm moves on the way."""
-    if np.array_equal(a.arm_angle, b.arm_angle):
+    if np.array_equal(a.joint_angle, b.joint_angle):
         samples = [a]
     else:
         shares = np.linspace(0.0, 1.0, steps + 1)
         samples = [
-            Posture(a.p_WB, a.q_WB, a.arm_angle + share * (b.arm_angle - a.arm_angle))
+            Posture(a.p_WB, a.q_WB, a.joint_angle + share * (b.joint_angle - a.joint_angle))
             for share in shares
         ]
     # A posture is all there is to the body's shape, so the spheres move rigidly with B.

@@ -12,7 +12,16 @@ from dataclasses import dataclass
 import numpy as np
 
 from inspect_cli.guidance.orientation import contact_orientation
-from inspect_cli.interfaces import Capabilities, Posture
+from inspect_cli.interfaces import (
+    FREE,
+    TOOL,
+    Capabilities,
+    ContactLaw,
+    FramePose,
+    Posture,
+    Shortfall,
+    pushed_along,
+)
 from inspect_cli.planning.points import ContactPoint
 from inspect_cli.spatial.arrays import Matrix, Vector
 from inspect_cli.spatial.rotations import quaternion_to_matrix
@@ -47,31 +56,45 @@ def tool_attitudes(n_W: Vector, y_near_W: Vector) -> tuple[Matrix, Matrix]:
     return near, near * np.array([-1.0, -1.0, 1.0])
 
 
-def touches(capabilities: Capabilities, point: ContactPoint, previous: Posture) -> list[Touch]:
-    """The ways to touch a point, best first; empty when the point is out of reach.
+def touches(
+    capabilities: Capabilities, point: ContactPoint, law: ContactLaw, previous: Posture
+) -> list[Touch] | Shortfall:
+    """The ways to touch a point, best first; or why it is out of reach.
 
     Of the two, first the one closer to the heading of the posture ``previous``. The vehicle
-    stays upright, z_B · z_W > 0, wherever one of them allows it.
+    stays upright, z_B · z_W > 0, wherever one of them allows it. In contact and at the set-point
+    the surface pushes the tool with the force that the law of contact expects.
     """
-    y_near_W = capabilities.tool_pose(previous)[1][:, 1]
-    found = []
+    y_near_W = capabilities.frame_pose(previous, TOOL)[1][:, 1]
+    found, short = [], Shortfall()
     for R_WT in tool_attitudes(point.n_W, y_near_W):
-        touch = _touch(capabilities, point, R_WT, previous)
-        if touch is not None:
+        touch = _touch(capabilities, point, R_WT, law, previous)
+        if isinstance(touch, Touch):
             found.append(touch)
-    return [touch for touch in found if touch.upright] or found
+        else:
+            short = touch
+    return [touch for touch in found if touch.upright] or found or short
 
 
 def _touch(
-    capabilities: Capabilities, point: ContactPoint, R_WT: Matrix, previous: Posture
-) -> Touch | None:
-    options = point.options
+    capabilities: Capabilities,
+    point: ContactPoint,
+    R_WT: Matrix,
+    law: ContactLaw,
+    previous: Posture,
+) -> Touch | Shortfall:
+    pushed = pushed_along(point.n_W, law.expected_force_n)
     postures: list[Posture] = []
-    for distance_m in (options.standoff_m, 0.0, -options.press_m):
+    for distance_m, loads in (
+        (point.options.standoff_m, FREE),
+        (0.0, pushed),
+        (-law.depth_m, pushed),
+    ):
         near = postures[-1] if postures else previous
-        posture = capabilities.posture_for_tool(point.in_front(distance_m), R_WT, near)
-        if posture is None:
-            return None
+        goals = {TOOL: FramePose(point.in_front(distance_m), R_WT)}
+        posture = capabilities.solve(goals, loads, near)
+        if isinstance(posture, Shortfall):
+            return posture
         postures.append(posture)
     return Touch(R_WT, *postures)
 

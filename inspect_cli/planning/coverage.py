@@ -1,8 +1,9 @@
 """Covering a surface: its points, those left out and why, their order, and the sorties.
 
-Of the two ways to turn the tool at a point the one with more thrust to spare is taken, whichever
-way leads there; it also takes less energy. Turning about costs time, so the order counts it as a
-distance. A point that cannot be touched is listed with its reasons and does not refuse the mission.
+Of the two ways to turn the tool at a point the one with more thrust to spare is taken (more of the
+vehicle's first margin), whichever way leads there; it also takes less energy. Turning about costs
+time, so the order counts it as a distance. A point that cannot be touched is listed with its
+reasons and does not refuse the mission.
 """
 
 from __future__ import annotations
@@ -13,28 +14,31 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from inspect_cli.errors import InfeasibleError, Problem
-from inspect_cli.interfaces import Capabilities
+from inspect_cli.interfaces import TOOL, Capabilities, Margins, Shortfall
 from inspect_cli.planning.clearance import Scene
-from inspect_cli.planning.contact_poses import touches
-from inspect_cli.planning.errands import unreachable
 from inspect_cli.planning.feasibility import Reason, assess, cable_span_m
 from inspect_cli.planning.lattice import Place, along_m, lattice
 from inspect_cli.planning.legs import JOULE_PER_WH
 from inspect_cli.planning.order import shortest
 from inspect_cli.planning.points import ContactPoint, in_words, point_on
+from inspect_cli.planning.segments import triple
+from inspect_cli.planning.sortie_costs import Base, SortieCosts
 from inspect_cli.planning.sorties import Costs, split
-from inspect_cli.planning.trips import Base, Trips
-from inspect_cli.planning.visits import ContactVisit, triple
+from inspect_cli.planning.tasks.situation import unreachable
+from inspect_cli.planning.tasks.touch import ContactSegment
 from inspect_cli.schema.coverage import CoveragePlan, Skipped, Sortie
 from inspect_cli.schema.mission import Mission
 from inspect_cli.schema.plan import Plan, PlannedSurface
 from inspect_cli.schema.primitives import primitive_of
-from inspect_cli.schema.tasks import MAX_POINTS, Coverage, Task
+from inspect_cli.schema.tasks import Task
+from inspect_cli.schema.tasks.base import MAX_POINTS
+from inspect_cli.schema.tasks.coverage import Coverage
 from inspect_cli.spatial.arrays import Points, Vector
 from inspect_cli.spatial.primitives import raycast
 
-WORTH_TURNING_N = 0.5
-"""Thrust to spare that is worth another heading than that of the first start."""
+WORTH_TURNING = {"N": 0.5, "rad": 0.05, "N·m": 0.05, "m": 0.01}
+"""By its unit, what more of the vehicle's first margin is worth another heading than that of the
+first start."""
 CLEAR_OF_OWN_M = 1e-3
 """From the surface to where the look ahead begins, so that it does not see the surface itself."""
 
@@ -62,16 +66,18 @@ class Surveyor:
         battery_wh: float,
     ) -> None:
         task = mission.tasks[0]
-        assert task.coverage is not None  # who asks for a survey has looked
+        assert isinstance(task.work, Coverage)  # who asks for a survey has looked
         self.task: Task = task
-        self.coverage: Coverage = task.coverage
-        self.budget_wh = (1.0 - task.coverage.reserve) * battery_wh
+        self.coverage: Coverage = task.work
+        self.budget_wh = (1.0 - self.coverage.reserve) * battery_wh
         shapes = {surface.name: surface.shape for surface in surfaces}
-        self.prim = primitive_of(shapes[task.coverage.on])
+        self.prim = primitive_of(shapes[self.coverage.on])
         self._mission, self._capabilities = mission, capabilities
         self._scene = Scene.of(surfaces)
         self._bases = self._made_bases(cable_m, min_force_n)
-        self._trips = Trips(mission, platform_name, capabilities, surfaces, self._bases)
+        self._sortie_costs = SortieCosts(
+            mission, platform_name, capabilities, surfaces, self._bases
+        )
 
     def survey(self) -> CoveragePlan:
         """The whole survey.
@@ -96,29 +102,30 @@ class Surveyor:
 
     def batch(self, places: Iterable[tuple[str, Place]]) -> Batch:
         """Flights through the points at labelled places."""
-        visits: list[ContactVisit] = []
+        segments: list[ContactSegment] = []
         skipped: list[Skipped] = []
         for label, place in places:
             point = self._point(label, place)
-            found = self._visit(point)
-            if isinstance(found, ContactVisit):
-                visits.append(found)
+            found = self._segment(point)
+            if isinstance(found, ContactSegment):
+                segments.append(found)
             else:
                 skipped.append(_skipped(point, found))
-        costs, visits, further = self._affordable(visits)
+        costs, segments, further = self._affordable(segments)
         skipped += further
-        order = self._order(visits)
-        ordered = [visits[k] for k in order]
+        order = self._order(segments)
+        ordered = [segments[k] for k in order]
         costs = replace(
             costs,
             work=costs.work[order],
             out=costs.out[:, order],
             home=costs.home[:, order],
-            between=self._trips.between_j(ordered),
+            between=self._sortie_costs.between_j(ordered),
         )
         stages = split(costs, self.budget_wh * JOULE_PER_WH)
         plans = [
-            self._trips.plan(stage.start, ordered[stage.first : stage.last + 1]) for stage in stages
+            self._sortie_costs.plan(stage.start, ordered[stage.first : stage.last + 1])
+            for stage in stages
         ]
         return Batch(tuple(plans), tuple(skipped), self._tour_m(ordered))
 
@@ -144,9 +151,12 @@ class Surveyor:
     def _point(self, label: str, place: Place) -> ContactPoint:
         impedance = self.task.impedance or self._mission.impedance
         coverage, sensor = self.coverage, self.task.instrument
-        return point_on(self.prim, place, label, coverage.on, coverage, impedance, sensor)
+        cell_m = (coverage.pitch_m, coverage.pitch_m)
+        return point_on(
+            self.prim, place, label, coverage.on, coverage, impedance, sensor, cell_m=cell_m
+        )
 
-    def _visit(self, point: ContactPoint) -> ContactVisit | list[Reason]:
+    def _segment(self, point: ContactPoint) -> ContactSegment | list[Reason]:
         """How a point is touched, without the way to it, or why it cannot be."""
         reasons = [*_faults(point), *self._kept_out(point), *self._hidden(point)]
         if reasons:
@@ -155,15 +165,17 @@ class Surveyor:
             self._bases, key=lambda base: cable_span_m(point, base.situation.limits.clamp_W)
         )
         capabilities, scene = self._capabilities, self._scene
-        best: ContactVisit | None = None
-        for touch in touches(capabilities, point, self._bases[0].hover):
+        ways = nearest.situation.touches(point, self._bases[0].hover)
+        if isinstance(ways, Shortfall):
+            return [unreachable(point, ways)]
+        best: ContactSegment | None = None
+        for touch in ways:
             found = assess(capabilities, scene, point, touch, nearest.situation.limits)
-            spare_n = found.margins.thrust_n
             if found.reasons:
                 reasons = reasons or list(found.reasons)
-            elif best is None or spare_n > best.assessment.margins.thrust_n + WORTH_TURNING_N:
-                best = ContactVisit(point, self.coverage, touch, (), found)
-        return best or reasons or [unreachable(point)]
+            elif best is None or _worth_turning(found.margins, best.assessment.margins):
+                best = ContactSegment(point, self.coverage, touch, (), found)
+        return best or reasons
 
     def _kept_out(self, point: ContactPoint) -> list[Reason]:
         reasons = []
@@ -189,13 +201,13 @@ class Surveyor:
         return []
 
     def _affordable(
-        self, visits: list[ContactVisit]
-    ) -> tuple[Costs, list[ContactVisit], list[Skipped]]:
-        """The energies of the visits that a flight of their own could make, and the others."""
-        costs, reasons = self._trips.costs(visits)
+        self, segments: list[ContactSegment]
+    ) -> tuple[Costs, list[ContactSegment], list[Skipped]]:
+        """The energies of the segments that a flight of their own could make, and the others."""
+        costs, reasons = self._sortie_costs.costs(segments)
         alone_j = costs.alone()
         skipped, kept = [], []
-        for k, visit in enumerate(visits):
+        for k, segment in enumerate(segments):
             alone_wh = alone_j[k] / JOULE_PER_WH
             if alone_wh <= self.budget_wh:
                 kept.append(k)
@@ -204,41 +216,49 @@ class Surveyor:
                 f"a flight to it alone takes {alone_wh:.2f} Wh, the battery gives "
                 f"{self.budget_wh:.2f} Wh above its reserve"
             )
-            skipped.append(_skipped(visit.point, reasons.get(k) or [Reason(what)]))
+            skipped.append(_skipped(segment.point, reasons.get(k) or [Reason(what)]))
         chosen = replace(
             costs, work=costs.work[kept], out=costs.out[:, kept], home=costs.home[:, kept]
         )
-        return chosen, [visits[k] for k in kept], skipped
+        return chosen, [segments[k] for k in kept], skipped
 
-    def _order(self, visits: Sequence[ContactVisit]) -> list[int]:
+    def _order(self, segments: Sequence[ContactSegment]) -> list[int]:
         """The shortest way through the standoffs, turning about counted as a distance.
 
         In the time of a turn by θ at the rate ω the vehicle covers v θ / ω. The tool's level axis
         y_T, drawn out to v π / 2ω, is a further place: a half turn is v π / ω away.
         """
-        if not visits:
+        if not segments:
             return []
         capabilities = self._capabilities
         speed_mps = min(self._mission.flight.speed_mps, capabilities.max_speed_mps)
         reach_m = 0.5 * np.pi * speed_mps / capabilities.max_angular_rate_radps
-        first_y = capabilities.tool_pose(self._bases[0].hover)[1][:, 1]
-        ys = np.array([visit.touch.R_WT[:, 1] for visit in visits])
-        places = np.hstack([_tips(visits), reach_m * ys])
+        first_y = capabilities.frame_pose(self._bases[0].hover, TOOL)[1][:, 1]
+        ys = np.array([segment.touch.R_WT[:, 1] for segment in segments])
+        places = np.hstack([_tips(segments), reach_m * ys])
         return shortest(places, np.concatenate([self._first_tip(), reach_m * first_y]))
 
     def _first_tip(self) -> Vector:
-        return self._capabilities.tool_pose(self._bases[0].hover)[0]
+        return self._capabilities.frame_pose(self._bases[0].hover, TOOL)[0]
 
-    def _tour_m(self, ordered: Sequence[ContactVisit]) -> float:
+    def _tour_m(self, ordered: Sequence[ContactSegment]) -> float:
         if not ordered:
             return 0.0
         path = np.vstack([self._first_tip(), _tips(ordered)])
         return float(np.linalg.norm(np.diff(path, axis=0), axis=1).sum())
 
 
-def _tips(visits: Sequence[ContactVisit]) -> Points:
+def _worth_turning(margins: Margins, others: Margins) -> bool:
+    """Whether a posture's first margin is so much larger than another posture's."""
+    name, margin = next(iter(margins.items()), ("", None))
+    if margin is None:
+        return False
+    return margin.value > others[name].value + WORTH_TURNING.get(margin.unit, 0.0)
+
+
+def _tips(segments: Sequence[ContactSegment]) -> Points:
     """The tool's tips (n, 3) m in W at the standoffs."""
-    return np.array([visit.point.in_front(visit.options.standoff_m) for visit in visits])
+    return np.array([segment.point.in_front(segment.options.standoff_m) for segment in segments])
 
 
 def _faults(point: ContactPoint) -> list[Reason]:

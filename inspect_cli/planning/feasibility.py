@@ -7,14 +7,12 @@ from typing import NamedTuple
 
 import numpy as np
 
-from inspect_cli.interfaces import Capabilities, Margins
+from inspect_cli.interfaces import FREE, Capabilities, ContactLaw, Margins, least, pushed_along
 from inspect_cli.planning.clearance import Gap, Scene, gap_along
 from inspect_cli.planning.contact_poses import Touch
 from inspect_cli.planning.points import ContactPoint, in_words
 from inspect_cli.schema.start import Start
 from inspect_cli.spatial.arrays import Vector
-
-FREE = np.zeros(6)
 
 
 class Reason(NamedTuple):
@@ -41,7 +39,7 @@ class Limits:
 class Assessment:
     """What a touch comes to; it can be flown when there are no reasons against it."""
 
-    force_n: float
+    law: ContactLaw
     margins: Margins
     gap: Gap
     reasons: tuple[Reason, ...]
@@ -55,10 +53,10 @@ def assess(
     In contact the surface pushes the tool's tip along its outward normal with the expected
     force f: the wrench on the tip is (f n, 0).
     """
-    force_n = capabilities.press_force(point.options.press_m, point.impedance)
-    pushed = np.concatenate([force_n * point.n_W, np.zeros(3)])
+    law = capabilities.contact_law(point.options, point.impedance)
+    force_n = law.expected_force_n
     free = capabilities.margins(touch.standoff, FREE)
-    loaded = capabilities.margins(touch.contact, pushed)
+    loaded = capabilities.margins(touch.contact, pushed_along(point.n_W, force_n))
     gap = gap_along(capabilities, scene, [touch.standoff, touch.contact])
     reasons = [
         *cable_reasons(point, limits),
@@ -67,8 +65,7 @@ def assess(
         *margin_reasons(loaded, f"pressing with {force_n:.2f} N"),
         *gap_reasons(gap, limits.clearance_m),
     ]
-    worst = Margins(min(free.thrust_n, loaded.thrust_n), min(free.tilt_rad, loaded.tilt_rad))
-    return Assessment(force_n, worst, gap, tuple(reasons))
+    return Assessment(law, least([free, loaded]), gap, tuple(reasons))
 
 
 def clamp_of(start: Start) -> Vector:
@@ -91,15 +88,12 @@ def cable_reasons(point: ContactPoint, limits: Limits) -> list[Reason]:
 
 
 def margin_reasons(margins: Margins, doing: str) -> list[Reason]:
-    """Whether the actuators can hold it."""
+    """Which of the vehicle's limits do not hold, in the vehicle's own words."""
     reasons = []
-    if not margins.thrust_n >= 0.0:
-        what = f"{doing} asks for {-margins.thrust_n:.2f} N more than a rotor group can give"
-        reasons.append(Reason(what, "press less deep, or touch a surface that needs less tilt"))
-    if not margins.tilt_rad >= 0.0:
-        beyond_deg = np.degrees(-margins.tilt_rad)
-        what = f"{doing} asks a joint to turn {beyond_deg:.1f}° beyond its limit"
-        reasons.append(Reason(what, "use a tool at another angle"))
+    for name, margin in margins.items():
+        if not margin.holds:
+            lack = margin.lack or f"leaves a margin '{name}' of {margin.value:.3g} {margin.unit}"
+            reasons.append(Reason(f"{doing} {lack}", margin.hint))
     return reasons
 
 

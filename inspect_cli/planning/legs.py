@@ -7,12 +7,12 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from inspect_cli.autonomy.timing import PAUSE_S, SIGHT_S
-from inspect_cli.interfaces import Capabilities, Posture
+from inspect_cli.interfaces import FREE, Capabilities, Posture
 from inspect_cli.planning.feasibility import clamp_of
 from inspect_cli.planning.path import Way
+from inspect_cli.planning.segments import Segment, Stretch, posture_model
 from inspect_cli.planning.timing import duration_and_energy, path_m
-from inspect_cli.planning.visits import Stretch, Visit, posture_model
+from inspect_cli.schema.flight_times import PAUSE_S, SIGHT_S
 from inspect_cli.schema.mission import FlightOptions, Mission
 from inspect_cli.schema.plan import Leg, LegKind, Plan, PlannedSurface
 from inspect_cli.spatial.arrays import Vector
@@ -31,21 +31,21 @@ an approach for the surface to be seen."""
 
 @dataclass(frozen=True)
 class Itinerary:
-    """The flight in postures: from standing to hover, the visits, the way home."""
+    """The flight in postures: from standing to hover, the segments, the way home."""
 
     standing: Posture
     hover: Posture
-    visits: tuple[Visit, ...]
+    segments: tuple[Segment, ...]
     home: Way
 
 
 def stretches(itinerary: Itinerary) -> Iterator[Stretch]:
     """The legs in order. A transit that leads nowhere is left out."""
     yield Stretch("takeoff", None, (itinerary.hover,))
-    for index, visit in enumerate(itinerary.visits):
-        if visit.way:
-            yield Stretch("transit", index, visit.way)
-        yield from visit.stretches(index)
+    for index, segment in enumerate(itinerary.segments):
+        if segment.way:
+            yield Stretch("transit", index, segment.way)
+        yield from segment.stretches(index)
     if itinerary.home:
         yield Stretch("transit", None, itinerary.home)
     yield Stretch("land", None, (itinerary.standing,))
@@ -68,20 +68,20 @@ def plan_of(
         length_m += path_m((before, *stretch.postures))
         legs.append(leg)
         before = stretch.postures[-1]
-    visits = itinerary.visits
+    segments = itinerary.segments
     return Plan(
         mission=mission.name,
         platform=platform_name,
         impedance=mission.impedance,
         surfaces=surfaces,
         start=posture_model(itinerary.standing),
-        targets=tuple(visit.target(index) for index, visit in enumerate(visits)),
+        targets=tuple(segment.target(index) for index, segment in enumerate(segments)),
         legs=tuple(legs),
         duration_s=sum(leg.duration_s for leg in legs),
         energy_wh=energy_j / JOULE_PER_WH,
         path_m=length_m,
-        cable_m=_cable_m(visits, clamp_of(mission.start)),
-        warnings=tuple(_warnings(visits)),
+        cable_m=_cable_m(segments, clamp_of(mission.start)),
+        warnings=tuple(_warnings(segments)),
     )
 
 
@@ -94,7 +94,7 @@ def leg_of(
     if stretch.moving_s > 0.0:
         # The tool follows a line of its own; its time is known, its power is that of its end.
         time_s = stretch.moving_s + waiting_s
-        cost_j = time_s * capabilities.hover_power_w(stretch.postures[-1])
+        cost_j = time_s * capabilities.power_w(stretch.postures[-1], FREE)
     else:
         postures = (before, *stretch.postures)
         time_s, cost_j = duration_and_energy(postures, speed_mps, waiting_s, capabilities)
@@ -114,14 +114,14 @@ def _speed(kind: str, flight: FlightOptions, capabilities: Capabilities) -> floa
     return min(asked_mps, capabilities.max_speed_mps)
 
 
-def _cable_m(visits: Sequence[Visit], clamp_W: Vector) -> float:
+def _cable_m(segments: Sequence[Segment], clamp_W: Vector) -> float:
     """The longest straight distance that the cable has to span; 0 when nothing is touched."""
-    tips = [tip for visit in visits for tip in visit.tips_W]
+    tips = [tip for segment in segments for tip in segment.tips_W]
     return max((float(np.linalg.norm(tip - clamp_W)) for tip in tips), default=0.0)
 
 
-def _warnings(visits: Sequence[Visit]) -> Iterator[str]:
-    for visit in visits:
-        if len(visit.way) > 1:
-            more = len(visit.way) - 1
-            yield f"point {visit.label}: no straight way is clear, it goes by {more} more"
+def _warnings(segments: Sequence[Segment]) -> Iterator[str]:
+    for segment in segments:
+        if len(segment.way) > 1:
+            more = len(segment.way) - 1
+            yield f"point {segment.label}: no straight way is clear, it goes by {more} more"

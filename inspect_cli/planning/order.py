@@ -7,7 +7,8 @@ from typing import Literal
 import numpy as np
 
 from inspect_cli.planning.points import ContactPoint
-from inspect_cli.schema.tasks import ContactGrid, ContactPoints
+from inspect_cli.schema.tasks.contact_grid import ContactGrid
+from inspect_cli.schema.tasks.contact_points import ContactPoints
 from inspect_cli.spatial.arrays import Matrix, Points, Vector
 
 Order = Literal["boustrophedon", "rows", "given", "shortest"]

@@ -8,11 +8,9 @@ from dataclasses import replace
 import numpy as np
 
 from inspect_cli.errors import InfeasibleError, Problem
-from inspect_cli.interfaces import Capabilities, Posture
+from inspect_cli.interfaces import FREE, TOOL, Capabilities, FramePose, Posture
 from inspect_cli.planning.clearance import Scene, gap_along
-from inspect_cli.planning.errands import Errand, Situation, errands_of
 from inspect_cli.planning.feasibility import (
-    FREE,
     Limits,
     Reason,
     clamp_of,
@@ -21,7 +19,9 @@ from inspect_cli.planning.feasibility import (
 )
 from inspect_cli.planning.legs import Itinerary, plan_of
 from inspect_cli.planning.path import Stop, find_way
-from inspect_cli.planning.visits import Visit
+from inspect_cli.planning.segments import Segment
+from inspect_cli.planning.tasks import planners_of
+from inspect_cli.planning.tasks.situation import Planner, Situation
 from inspect_cli.schema.mission import Mission
 from inspect_cli.schema.plan import Plan, PlannedSurface
 from inspect_cli.schema.primitives import primitive_of
@@ -57,16 +57,16 @@ def make_plan(
     check_start(situation, standing, hover)
 
     prims = {surface.name: primitive_of(surface.shape) for surface in surfaces}
-    errands = errands_of(mission, capabilities, prims, drawings, hover)
-    visits, problems = _visit_all(situation, errands, hover)
-    last = visits[-1].stop if visits else Stop(hover, np.zeros(3))
+    planners = planners_of(mission, capabilities, prims, drawings, hover)
+    segments, problems = _plan_all(situation, planners, hover)
+    last = segments[-1].stop if segments else Stop(hover, np.zeros(3))
     home = find_way(capabilities, scene, last, Stop(hover, np.zeros(3)), limits.clearance_m)
     if home is None:
-        reason = f"no clear way home from point {visits[-1].label} to the start"
+        reason = f"no clear way home from point {segments[-1].label} to the start"
         problems.append(Problem(reason, hint="start elsewhere, or take off higher"))
     if problems or home is None:
         raise InfeasibleError(problems)
-    itinerary = Itinerary(standing, hover, tuple(visits), home)
+    itinerary = Itinerary(standing, hover, tuple(segments), home)
     plan = plan_of(mission, platform_name, capabilities, surfaces, itinerary)
     if plan.energy_wh > battery_wh:
         raise InfeasibleError(
@@ -94,9 +94,9 @@ def start_postures(start: Start, capabilities: Capabilities) -> tuple[Posture, P
 
 def _with_arm_at_rest(capabilities: Capabilities, bare: Posture) -> Posture:
     """The posture with its arm's angles; a vehicle takes a posture without them as at rest."""
-    p_WT, R_WT = capabilities.tool_pose(bare)
-    found = capabilities.posture_for_tool(p_WT, R_WT, bare)
-    return bare if found is None else replace(bare, arm_angle=found.arm_angle)
+    tool = FramePose(*capabilities.frame_pose(bare, TOOL))
+    found = capabilities.solve({TOOL: tool}, FREE, bare)
+    return replace(bare, joint_angle=found.joint_angle) if found else bare
 
 
 def check_start(situation: Situation, standing: Posture, hover: Posture) -> None:
@@ -113,21 +113,21 @@ def check_start(situation: Situation, standing: Posture, hover: Posture) -> None
         raise InfeasibleError(_problem("start", reasons))
 
 
-def _visit_all(
-    situation: Situation, errands: Iterator[Errand], hover: Posture
-) -> tuple[list[Visit], list[Problem]]:
-    """Visits one after the other; one that fails is left out and its problem returned."""
+def _plan_all(
+    situation: Situation, planners: Iterator[Planner], hover: Posture
+) -> tuple[list[Segment], list[Problem]]:
+    """Segments one after the other; one that fails is left out and its problem returned."""
     stop = Stop(hover, np.zeros(3))
-    visits: list[Visit] = []
+    segments: list[Segment] = []
     problems: list[Problem] = []
-    for errand in errands:
-        found = errand.visit(situation, stop)
+    for planner in planners:
+        found = planner.plan(situation, stop)
         if isinstance(found, list):
-            problems.append(_problem(errand.name, found))
+            problems.append(_problem(planner.name, found))
         else:
-            visits.append(found)
+            segments.append(found)
             stop = found.stop
-    return visits, problems
+    return segments, problems
 
 
 def _problem(who: str, reasons: Sequence[Reason]) -> Problem:

@@ -8,7 +8,10 @@ from dataclasses import dataclass
 import numpy as np
 
 from inspect_cli.schema.base import Triple
-from inspect_cli.schema.tasks import ContactGrid, ContactPoints, Instrument, Pressing, Task
+from inspect_cli.schema.tasks import Task
+from inspect_cli.schema.tasks.base import Instrument, Pressing
+from inspect_cli.schema.tasks.contact_grid import ContactGrid
+from inspect_cli.schema.tasks.contact_points import ContactPoints
 from inspect_cli.spatial.arrays import Structured, Vector
 from inspect_cli.spatial.primitives import normal_at, point_at, project
 
@@ -33,6 +36,8 @@ class ContactPoint:
     impedance: str
     sensor: Instrument | None = None
     fault: str = ""
+    cell_m: tuple[float, float] | None = None
+    """Widths along u and v of what it stands for (``point_cells``)."""
 
     def in_front(self, distance_m: float) -> Vector:
         """The point (3,) m in W at this distance from the surface; negative lies behind it."""
@@ -41,24 +46,34 @@ class ContactPoint:
 
 
 def points_of_task(
-    task: Task, prim: Structured, first_number: int, impedance: str
+    task: Task,
+    prim: Structured,
+    first_number: int,
+    impedance: str,
+    cell_m: tuple[float, float] | None,
 ) -> list[ContactPoint]:
     """The points of a task of contacts in the order in which the mission gives them.
 
     ``prim`` is the surface's PRIMITIVE array of length 1. Points are labelled with numbers
     from ``first_number`` on. Points that cannot be touched are returned with their fault.
-    ``impedance`` is the profile that they are touched with.
+    ``impedance`` is the profile that they are touched with, ``cell_m`` what each stands for.
     """
     contact = task.work
     assert isinstance(contact, ContactGrid | ContactPoints)  # the planner sorts tasks by kind
-    if isinstance(contact, ContactGrid):
-        places = [(u, v, "") for u, v in grid_uv(contact)]
-    else:
-        places = [_projected(prim, p_W, contact.tolerance_m) for p_W in contact.at_m]
+    sensor = task.instrument
     return [
-        point_on(prim, (u, v), str(number), contact.on, contact, impedance, task.instrument, fault)
-        for number, (u, v, fault) in enumerate(places, first_number)
+        point_on(prim, (u, v), str(number), contact.on, contact, impedance, sensor, fault, cell_m)
+        for number, (u, v, fault) in enumerate(places_of_task(contact, prim), first_number)
     ]
+
+
+def places_of_task(
+    contact: ContactGrid | ContactPoints, prim: Structured
+) -> list[tuple[float, float, str]]:
+    """(u, v) m of a task's points on the surface, and what is wrong with each."""
+    if isinstance(contact, ContactGrid):
+        return [(u, v, "") for u, v in grid_uv(contact)]
+    return [_projected(prim, p_W, contact.tolerance_m) for p_W in contact.at_m]
 
 
 def point_on(
@@ -70,6 +85,7 @@ def point_on(
     impedance: str,
     sensor: Instrument | None = None,
     fault: str = "",
+    cell_m: tuple[float, float] | None = None,
 ) -> ContactPoint:
     """The point at (u, v) m of a surface, with its fault where it lies outside of the patch."""
     u, v = uv_m
@@ -83,6 +99,7 @@ def point_on(
         impedance=impedance,
         sensor=sensor,
         fault=fault or outside(prim, u, v),
+        cell_m=cell_m,
     )
 
 

@@ -14,7 +14,7 @@ from typing import NamedTuple
 
 from inspect_cli.assessment.spacing import NEIGHBOUR_SPACINGS
 from inspect_cli.planning.lattice import Place, along_m, between
-from inspect_cli.schema.tasks import Coverage, Refinement
+from inspect_cli.schema.tasks.coverage import Coverage, Refinement
 from inspect_cli.spatial.arrays import Structured
 
 

@@ -14,7 +14,7 @@ from inspect_cli.planning.contact_poses import Touch
 from inspect_cli.planning.points import ContactPoint, outside, point_on
 from inspect_cli.planning.timing import extent
 from inspect_cli.schema.plan import Stroke
-from inspect_cli.schema.tasks import Trace
+from inspect_cli.schema.tasks.trace import Trace
 from inspect_cli.spatial.arrays import Points, Structured
 
 SAMPLE_M = 0.10

@@ -15,7 +15,7 @@ import numpy as np
 
 from inspect_cli.guidance.motion import Motion, MotionLimits
 from inspect_cli.guidance.trajectory import to_goal, turn_between
-from inspect_cli.interfaces import Capabilities, Posture
+from inspect_cli.interfaces import FREE, Capabilities, Posture
 
 SAME = 1e-6
 """Metres and radians that no vehicle notices."""
@@ -27,7 +27,7 @@ def extent(a: Posture, b: Posture) -> tuple[float, float]:
     The turn is the larger of the body's rotation angle and any arm joint's motion.
     """
     turn = float(np.linalg.norm(turn_between(a.q_WB, b.q_WB)))
-    joints = np.abs(b.arm_angle - a.arm_angle)
+    joints = np.abs(b.joint_angle - a.joint_angle)
     return float(np.linalg.norm(b.p_WB - a.p_WB)), max(turn, float(joints.max(initial=0.0)))
 
 
@@ -52,11 +52,11 @@ def duration_and_energy(
 ) -> tuple[float, float]:
     """(s, J) of flying through the postures, resting at each, and dwelling at the last.
 
-    The power of a stretch is the mean of the hover powers at its ends: at the plan's
+    The power of a stretch is the mean of those of hovering at its ends: at the plan's
     accelerations the thrust is the weight's to a few percent.
     """
     limits = MotionLimits.of(capabilities, speed_mps)
-    powers = [capabilities.hover_power_w(posture) for posture in postures]
+    powers = [capabilities.power_w(posture, FREE) for posture in postures]
     time_s, energy_j = dwell_s, dwell_s * powers[-1]
     for k, (a, b) in enumerate(pairwise(postures)):
         stretch_s = rest_to_rest_s(a, b, limits)

@@ -8,9 +8,12 @@ from typing import Literal
 import mujoco
 import numpy as np
 
+from inspect_cli.interfaces import TOOL
 from inspect_cli.log.reader import RunLog
 from inspect_cli.records import Command, Estimate, State
 from inspect_cli.spatial.arrays import Indices, Points, Vector
+from inspect_cli.vehicles.actuators import Servo, of_kind
+from inspect_cli.vehicles.kinds import Vehicle
 
 FAR_M = 200.0
 """A flight that ends farther away than this from where it began has diverged."""
@@ -38,17 +41,18 @@ class Motion:
         return np.clip(rows, 0, len(self.t_s) - 1).astype(np.int32)
 
 
-def motion_of(log: RunLog, model: mujoco.MjModel) -> Motion | None:
-    """The motion of a vehicle with this nominal ``model``; None where no pose was logged."""
+def motion_of(log: RunLog, model: mujoco.MjModel, vehicle: Vehicle) -> Motion | None:
+    """The motion of a vehicle with its nominal ``model``; None where no pose was logged."""
     state, estimate = log.rows(State), log.rows(Estimate)
     rows, source = (state, "truth") if state is not None else (estimate, "estimate")
     if rows is None or rows.size < LEAST_ROWS:
         return None
-    n_joints = model.nq - 7
-    joints = rows["joint_angle"] if state is not None else _commanded(log, rows["t_s"], n_joints)
-    if joints.shape[1] != n_joints:
-        joints = np.zeros((rows.size, n_joints))
-    qpos = np.hstack([rows["p_WB"], rows["q_WB"], np.nan_to_num(joints)])
+    joints = rows["joint_angle"] if state is not None else _commanded(log, rows["t_s"], vehicle)
+    qpos = np.zeros((rows.size, model.nq))
+    qpos[:, :3], qpos[:, 3:7] = rows["p_WB"], rows["q_WB"]
+    if joints.shape[1] == len(vehicle.joints):
+        places = [int(model.joint(name).qposadr[0]) for name in vehicle.joints]
+        qpos[:, places] = np.nan_to_num(joints)
     whole = _leading_finite(rows["t_s"], qpos)
     if whole < LEAST_ROWS:
         return None
@@ -74,20 +78,25 @@ def _leading_finite(t_s: Vector, qpos: Points) -> int:
     return len(good) if good.all() else int(np.argmin(good))
 
 
-def _commanded(log: RunLog, t_s: Vector, n_joints: int) -> Points:
-    """Joint angles (n, n_joints) as last commanded; a real vehicle may log no others."""
+def _commanded(log: RunLog, t_s: Vector, vehicle: Vehicle) -> Points:
+    """Joint angles (n, n_joints) as last commanded; a real vehicle may log no others.
+
+    Joints without a servo stay at zero.
+    """
     rows = log.rows(Command)
-    if rows is None or rows.size == 0 or rows["joint_angle"].shape[1] != n_joints:
-        return np.zeros((len(t_s), n_joints))
+    angles: Points = np.zeros((len(t_s), len(vehicle.joints)))
+    servos = of_kind(vehicle.actuators, Servo)
+    if rows is None or rows.size == 0 or rows["joint_angle"].shape[1] != len(servos):
+        return angles
     last = np.clip(np.searchsorted(rows["t_s"], t_s, side="right") - 1, 0, rows.size - 1)
-    angles: Points = rows["joint_angle"][last]
+    angles[:, [vehicle.joints.index(servo.joint) for servo in servos]] = rows["joint_angle"][last]
     return angles
 
 
 def _tips(model: mujoco.MjModel, qpos: Points) -> Points:
     """Places (n, 3) of the tool's tip by the nominal model."""
     data = mujoco.MjData(model)
-    site = model.site("tool_tip").id
+    site = model.site(TOOL).id
     tips = np.zeros((len(qpos), 3))
     for row, tip in zip(qpos, tips, strict=True):
         data.qpos[:] = row

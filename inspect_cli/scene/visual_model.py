@@ -1,8 +1,7 @@
 """The visual model of a vehicle: its nominal model with visible booms and rotors.
 
 Only the contract of all vehicles is used (``vehicles.kinds``), so that a new kind needs no line
-here: an actuator on a site is a rotor, whose disc is normal to the site's z; a boom joins its
-carrier to the core.
+here: a rotor's disc is normal to its site's z; a boom joins its carrier to the base.
 """
 
 from __future__ import annotations
@@ -10,9 +9,12 @@ from __future__ import annotations
 import mujoco
 import numpy as np
 
-from inspect_cli.scene.materials import BLADE, BOOM, FRONT, HULL, INVISIBLE, ROTOR, TOOL
+from inspect_cli.interfaces import TOOL
+from inspect_cli.scene.materials import BLADE, BOOM, FRONT, HULL, INVISIBLE, ROTOR
+from inspect_cli.scene.materials import TOOL as TOOL_COLOUR
 from inspect_cli.spatial.arrays import Matrix, Vector
-from inspect_cli.vehicles.kinds import Vehicle
+from inspect_cli.vehicles.actuators import Rotor, of_kind, rotor_radii_m
+from inspect_cli.vehicles.kinds import Bodies, Vehicle
 
 BOOM_M, HUB_M, RING_M, STRUT_M = 0.009, 0.014, 0.004, 0.005
 RING, RING_SIDES, RING_SEGMENTS = "rotor_ring", 6, 40
@@ -24,33 +26,51 @@ AHEAD = 0.8
 def visual_model(vehicle: Vehicle) -> mujoco.MjSpec:
     """The vehicle's specification with visible parts; nothing of it can touch anything."""
     spec = vehicle.nominal_spec()
-    _paint(spec)
-    _add_struts(spec)
-    p_BR = _rotor_places(spec)
-    _add_ring_mesh(spec, vehicle.actuators.rotor_radius_m)
-    tip_B = _in_core(spec, "tool_tip")
-    _add_hull(spec, p_BR)
+    _paint(spec, vehicle)
+    _add_struts(spec, vehicle.bodies)
+    bodies, rotors = vehicle.bodies, of_kind(vehicle.actuators, Rotor)
+    p_BR = {rotor.name: _in_base(spec, bodies, rotor.name) for rotor in rotors}
+    radius_m = float(rotor_radii_m(vehicle.actuators).max())
+    _add_ring_mesh(spec, radius_m)
+    tip_B = _in_base(spec, bodies, TOOL)
+    _add_hull(spec, bodies, p_BR)
     for index, (name, place) in enumerate(p_BR.items()):
         site = spec.site(name)
         ahead = _level_cosine(place, tip_B) > AHEAD
-        _add_rotor(site, vehicle.actuators.rotor_radius_m, index)
-        _add_boom(spec, site.parent, place, index, ahead)
+        _add_rotor(site, radius_m, index)
+        _add_boom(spec, bodies, site.parent, place, index, ahead)
     return spec
 
 
-def _paint(spec: mujoco.MjSpec) -> None:
-    for body, colour in (("core", HULL), ("tool", TOOL), ("gear", BOOM), ("shell", INVISIBLE)):
-        for geom in spec.body(body).geoms:
+def _paint(spec: mujoco.MjSpec, vehicle: Vehicle) -> None:
+    bodies, tool = vehicle.bodies, spec.site(TOOL).parent
+    coloured = [(spec.body(name), INVISIBLE) for name in bodies.protected]
+    coloured += [(spec.body(name), BOOM) for name in bodies.gear]
+    coloured += [(spec.body(bodies.base), HULL), (tool, TOOL_COLOUR)]
+    for body, colour in coloured:
+        for geom in body.geoms:
             geom.rgba = colour
-    hull = next((geom for geom in spec.body("shell").geoms if geom.name == "hull"), None)
+    hull = _hull(spec, bodies)
     if hull is not None:
         hull.rgba = HULL
-    spec.geom("tip").rgba = FRONT
+    for contact in vehicle.contacts:
+        for name in contact.geoms:
+            spec.geom(name).rgba = FRONT
 
 
-def _add_struts(spec: mujoco.MjSpec) -> None:
-    """From the core's axis out to each foot."""
-    gear = spec.body("gear")
+def _hull(spec: mujoco.MjSpec, bodies: Bodies) -> mujoco.MjsGeom | None:
+    """The geom ``hull`` of a protected body, if there is one."""
+    geoms = [geom for name in bodies.protected for geom in spec.body(name).geoms]
+    return next((geom for geom in geoms if geom.name == "hull"), None)
+
+
+def _add_struts(spec: mujoco.MjSpec, bodies: Bodies) -> None:
+    """From the base's axis out to each foot."""
+    for name in bodies.gear:
+        _add_struts_to(spec.body(name))
+
+
+def _add_struts_to(gear: mujoco.MjsBody) -> None:
     for geom in list(gear.geoms):
         top = [0.55 * geom.pos[0], 0.55 * geom.pos[1], 0.0]
         gear.add_geom(
@@ -83,12 +103,12 @@ def _add_ring_mesh(spec: mujoco.MjSpec, radius_m: float) -> None:
     )
 
 
-def _add_hull(spec: mujoco.MjSpec, p_BR: dict[str, Vector]) -> None:
-    """A body for a vehicle whose shell has no geom ``hull`` that could be shown."""
-    if any(geom.name == "hull" for geom in spec.body("shell").geoms):
+def _add_hull(spec: mujoco.MjSpec, bodies: Bodies, p_BR: dict[str, Vector]) -> None:
+    """A visible body for a vehicle that has no geom ``hull``."""
+    if _hull(spec, bodies) is not None:
         return
     reach = max((float(np.linalg.norm(p[:2])) for p in p_BR.values()), default=0.3)
-    spec.body("core").add_geom(
+    spec.body(bodies.base).add_geom(
         type=mujoco.mjtGeom.mjGEOM_ELLIPSOID,
         size=[0.4 * reach, 0.4 * reach, 0.15 * reach],
         rgba=HULL,
@@ -98,19 +118,14 @@ def _add_hull(spec: mujoco.MjSpec, p_BR: dict[str, Vector]) -> None:
     )
 
 
-def _rotor_places(spec: mujoco.MjSpec) -> dict[str, Vector]:
-    """By the rotor's site: its place (3,) in B with every joint at zero."""
-    on_sites = [a for a in spec.actuators if a.trntype == mujoco.mjtTrn.mjTRN_SITE]
-    return {a.target: _in_core(spec, a.target) for a in on_sites}
-
-
-def _in_core(spec: mujoco.MjSpec, site: str) -> Vector:
+def _in_base(spec: mujoco.MjSpec, bodies: Bodies, site: str) -> Vector:
+    """A site's place (3,) in B with every joint at zero."""
     model = spec.compile()
     data = mujoco.MjData(model)
     mujoco.mj_kinematics(model, data)
-    core = model.body("core").id
-    R_WB: Matrix = data.xmat[core].reshape(3, 3)
-    place: Vector = R_WB.T @ (data.site_xpos[model.site(site).id] - data.xpos[core])
+    base = model.body(bodies.base).id
+    R_WB: Matrix = data.xmat[base].reshape(3, 3)
+    place: Vector = R_WB.T @ (data.site_xpos[model.site(site).id] - data.xpos[base])
     return place
 
 
@@ -153,11 +168,16 @@ def _add(
 
 
 def _add_boom(
-    spec: mujoco.MjSpec, carrier: mujoco.MjsBody, p_BR: Vector, index: int, ahead: bool
+    spec: mujoco.MjSpec,
+    bodies: Bodies,
+    carrier: mujoco.MjsBody,
+    p_BR: Vector,
+    index: int,
+    ahead: bool,
 ) -> None:
-    """From the core to below the rotor; of several rotors on one carrier each draws its own."""
-    end = p_BR if carrier.name == "core" else np.array(carrier.pos)
-    spec.body("core").add_geom(
+    """From the base to below the rotor; of several rotors on one carrier each draws its own."""
+    end = p_BR if carrier.name == bodies.base else np.array(carrier.pos)
+    spec.body(bodies.base).add_geom(
         type=mujoco.mjtGeom.mjGEOM_CAPSULE,
         fromto=[0.0, 0.0, 0.0, *end],
         size=[BOOM_M + 1e-5 * index, 0.0, 0.0],  # no two surfaces in one place

@@ -5,28 +5,30 @@ Checked on the nodes, so that each problem is told at its place in the file.
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+
 from inspect_cli.errors import Location, Problem
 from inspect_cli.schema.explain import suggest
 from inspect_cli.schema.mission import MissionFile
 from inspect_cli.schema.nodes import Node, Step, join
-from inspect_cli.schema.vehicle import PlatformBase
-
-POSE_SOURCES = {"external": "pose", "onboard": "odometry"}
-"""Which sensor an estimation flies on."""
+from inspect_cli.schema.positioning import Estimation
+from inspect_cli.schema.truth import WALL
+from inspect_cli.schema.vehicle import PlatformBase, PoseSourceModel
 
 
 def disagreements(file: MissionFile, node: Node, platform: PlatformBase) -> list[Problem]:
     """Every such problem of a mission that is valid by itself."""
-    problems = _missing_profiles(file, node, platform)
-    if file.estimation == "onboard" and platform.sensors.odometry is None:
-        what = f"{platform.name} has no sensors.odometry to fly on"
-        problems.append(Problem(what, _place(node, ("estimation",)), "choices: external"))
-    return problems + _idle_faults(file, node) + _uneven_force_sensors(file, node, platform)
+    return [
+        *_missing_profiles(file, node, platform),
+        *_missing_sensors(file, node, platform),
+        *_faults_without_effect(file, node, platform),
+        *_uneven_force_sensors(file, node, platform),
+    ]
 
 
 def _missing_profiles(file: MissionFile, node: Node, platform: PlatformBase) -> list[Problem]:
     """Impedance profiles that the mission or one of its tasks names and the platform lacks."""
-    known = list(platform.control.profiles)
+    known = list(platform.impedances)
     named: list[tuple[str | None, tuple[Step, ...]]] = [(file.impedance, ("impedance",))]
     named += [(task.impedance, ("tasks", k, "impedance")) for k, task in enumerate(file.tasks)]
     return [
@@ -40,15 +42,55 @@ def _missing_profiles(file: MissionFile, node: Node, platform: PlatformBase) -> 
     ]
 
 
-def _idle_faults(file: MissionFile, node: Node) -> list[Problem]:
-    """Faults of the pose sensor that the mission does not fly on."""
-    flown = POSE_SOURCES[file.estimation]
-    what = f"estimation {file.estimation} flies on {flown}; a fault of another has no effect"
-    return [
-        Problem(what, _place(node, ("truth", "faults", k, "sensor")), f"choices: {flown}")
-        for k, fault in enumerate(file.truth.faults)
-        if fault.sensor in POSE_SOURCES.values() and fault.sensor != flown
-    ]
+def _missing_sensors(file: MissionFile, node: Node, platform: PlatformBase) -> Iterator[Problem]:
+    """A pose source or an instrument that the mission needs and the platform lacks."""
+    sources = _pose_sources(platform)
+    if sources and file.estimation not in sources:
+        kind = "odometry" if file.estimation == "onboard" else "pose_tracker"
+        what = f"{platform.name} has no sensor of kind {kind} to fly on"
+        hint = f"choices: {', '.join(sources)}"
+        yield Problem(what, _place(node, ("estimation",)), hint)
+    kinds = {sensor.kind for sensor in platform.sensors.values()}
+    for k, task in enumerate(file.tasks):
+        if task.instrument is not None and task.instrument not in kinds:
+            what = f"{platform.name} has no sensor of kind {task.instrument} to read with"
+            hint = "sensor: none touches without reading"
+            yield Problem(what, _place(node, ("tasks", k)), hint)
+
+
+def _faults_without_effect(
+    file: MissionFile, node: Node, platform: PlatformBase
+) -> Iterator[Problem]:
+    """Faults of sensors that are not there, that the mission does not fly on, or without pixels."""
+    sources = _pose_sources(platform)
+    flown = sources.get(file.estimation)
+    walls = [WALL] if any(s.force_sensor for s in file.truth.structure.values()) else []
+    known = [*platform.sensors, *walls]
+    cameras = [name for name, model in platform.sensors.items() if model.has_pixels]
+    for k, fault in enumerate(file.truth.faults):
+        entry = ("truth", "faults", k)
+        where = _place(node, (*entry, "sensor"))
+        if fault.sensor not in known:
+            what = f"{platform.name} has no sensor '{fault.sensor}'"
+            yield Problem(what, where, suggest(fault.sensor, known))
+        elif fault.sensor in sources.values() and fault.sensor != flown:
+            what = (
+                f"estimation {file.estimation} flies on {flown}; a fault of another has no effect"
+            )
+            yield Problem(what, where, f"choices: {flown}")
+        elif fault.fault == "holes" and fault.sensor not in cameras:
+            images = " and ".join(cameras) or "a depth camera"
+            what = f"only the images of {images} have holes; {fault.sensor} can be off or nan"
+            yield Problem(what, _place(node, entry))
+
+
+def _pose_sources(platform: PlatformBase) -> dict[Estimation, str]:
+    """The names of the sensors that estimations can be based on."""
+    return {
+        model.estimation: name
+        for name, model in platform.sensors.items()
+        if isinstance(model, PoseSourceModel)
+    }
 
 
 def _uneven_force_sensors(file: MissionFile, node: Node, platform: PlatformBase) -> list[Problem]:

@@ -13,6 +13,7 @@ from pydantic import BaseModel, ValidationError
 
 from inspect_cli.errors import Location, Problem
 from inspect_cli.schema.nodes import Node, Step, join
+from inspect_cli.schema.registry import one_of
 from inspect_cli.schema.units import Unit, converted, parse_quantity, split_key
 
 
@@ -101,6 +102,9 @@ def _find(model: type[BaseModel], root: Node, loc: Sequence[Step]) -> _Spot:
 
 def _descend(kind: Any, step: Step) -> tuple[Any, bool]:
     """The type below ``kind``, and whether ``step`` is a step in the file or a union's tag."""
+    union = one_of(kind)
+    if union is not None:
+        return (union.models[str(step)], False) if step in union.models else (None, True)
     kind = _bare(kind)
     if step == "[key]":
         return kind, False
@@ -204,7 +208,9 @@ def _key_hint(spot: _Spot) -> str:
 
 def _tag_problem(detail: dict[str, Any], spot: _Spot) -> Problem:
     key = detail["ctx"]["discriminator"].strip("'")
-    choices = [str(tag) for m in get_args(_bare(spot.kind)) for tag in _own_tags(m, key)]
+    union = one_of(spot.kind)
+    members = get_args(_bare(spot.kind)) if union is None else tuple(union.models.values())
+    choices = [str(tag) for m in members for tag in _own_tags(m, key)]
     tag = spot.node.child(key)
     if tag is None:
         hint = f"choices: {', '.join(choices)}"

@@ -91,12 +91,19 @@ DEFINED: dict[Kind, Callable[[], Defined]] = {
 
 
 def _partial(schema: Any) -> Any:
-    """A copy in which nothing is required, its references led to other such copies."""
+    """A copy in which nothing is required, its references led to other such copies.
+
+    An entry that leaves out its kind may then be of several, so that oneOf becomes anyOf.
+    """
     if isinstance(schema, list):
         return [_partial(entry) for entry in schema]
     if not isinstance(schema, dict):
         return schema
-    copy = {key: _partial(value) for key, value in schema.items() if key != "required"}
+    copy = {
+        "anyOf" if key == "oneOf" else key: _partial(value)
+        for key, value in schema.items()
+        if key != "required"
+    }
     if isinstance(copy.get("$ref"), str):
         copy["$ref"] = copy["$ref"].replace(REFERENCE, REFERENCE + "Partial")
     mapping = copy.get("discriminator", {}).get("mapping", {})

@@ -20,7 +20,7 @@ from inspect_cli.schema.explain import problems_of, shown, suggest
 from inspect_cli.schema.mission import Mission, MissionFile
 from inspect_cli.schema.nodes import Node, Step, join, merged, without
 from inspect_cli.schema.references import (
-    crowded_coverages,
+    crowded_tasks,
     dangling_surfaces,
     file_problem,
     resolved_files,
@@ -29,6 +29,7 @@ from inspect_cli.schema.strict_yaml import read_yaml
 from inspect_cli.schema.survey import SurveySettings
 from inspect_cli.schema.truth import TruthModel
 from inspect_cli.schema.vehicle import PLATFORM_KINDS, PlatformBase
+from inspect_cli.schema.vehicle.outdated import outdated_entries
 
 MAX_EXTENDS = 5
 
@@ -63,7 +64,7 @@ def load_mission(path: Path, platform: Path | None = None) -> Loaded:
     """
     root = campaign_root(path)
     node, problems = resolved_files(_read_extended(path, root, ()), root)
-    problems += [*dangling_surfaces(node), *crowded_coverages(node)]
+    problems += [*dangling_surfaces(node), *crowded_tasks(node)]
     file = _validated(MissionFile, node, problems)
 
     asked = _asked_platform(platform, root, problems) if platform else None
@@ -101,7 +102,9 @@ def load_platform(path: Path) -> PlatformBase:
         found = shown(kind.value)
         hint = suggest(found, list(PLATFORM_KINDS))
         raise SchemaError(Problem(f"no such kind of platform: {found}", kind.at("kind"), hint))
-    problems: list[Problem] = []
+    problems = outdated_entries(node)
+    if problems:
+        raise SchemaError(sorted(problems, key=_place))
     model = _validated(PLATFORM_KINDS[kind.value], node, problems)
     if model is None:
         raise SchemaError(sorted(problems, key=_place))

@@ -16,7 +16,8 @@ from inspect_cli.schema.base import (
 from inspect_cli.schema.geometry import Displacement, Shape
 from inspect_cli.schema.positioning import Estimation
 from inspect_cli.schema.start import Start
-from inspect_cli.schema.tasks import Task
+from inspect_cli.schema.tasks import TASK_KINDS, Task
+from inspect_cli.schema.tasks.coverage import Coverage
 from inspect_cli.schema.truth import TruthModel
 
 Fit = Literal["plane", "sphere", "cylinder", "auto"]
@@ -177,17 +178,16 @@ class Mission(Strict):
         return self
 
     @model_validator(mode="after")
-    def _coverage_alone(self) -> Mission:
-        if len(self.tasks) > 1 and any(task.coverage is not None for task in self.tasks):
-            raise ValueError(
-                "a coverage is split into sorties and must be the only task of its mission"
-            )
+    def _alone(self) -> Mission:
+        why = (TASK_KINDS[task.kind].alone for task in self.tasks)
+        if len(self.tasks) > 1 and (alone := next(filter(None, why), "")):
+            raise ValueError(alone)
         return self
 
     @property
     def is_survey(self) -> bool:
         """Whether it covers a surface by sorties."""
-        return self.tasks[0].coverage is not None
+        return isinstance(self.tasks[0].work, Coverage)
 
 
 class MissionFile(Mission):

@@ -66,14 +66,16 @@ def join(steps: Sequence[Step]) -> str:
 def merged(base: Node, over: Node) -> Node:
     """``over`` laid upon ``base``: mappings merge key by key, everything else is replaced.
 
-    A null in ``over`` removes the key that ``base`` has. A specimen of another ``model`` replaces
-    the one that ``base`` has: their keys have nothing to do with each other.
+    A null in ``over`` removes the key that ``base`` has. A specimen of another ``model``, and a
+    sensor or shape of another ``kind``, replaces the one that ``base`` has: their keys have
+    nothing to do with each other.
     """
     if not (isinstance(base.value, dict) and isinstance(over.value, dict)):
         return over
-    models = base.child("model"), over.child("model")
-    if models[0] and models[1] and models[0].value != models[1].value:
-        return over
+    for key in ("model", "kind"):
+        first, second = base.child(key), over.child(key)
+        if first and second and first.value != second.value:
+            return over
     entries = dict(base.value)
     for key, node in over.value.items():
         inherited = entries.get(key)

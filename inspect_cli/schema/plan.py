@@ -8,7 +8,7 @@ from typing import Annotated, Literal, Self
 import numpy as np
 from pydantic import AfterValidator, Field, model_validator
 
-from inspect_cli.interfaces import Posture
+from inspect_cli.interfaces import ContactLaw, Posture
 from inspect_cli.schema.base import Name, NonNegative, Positive, Strict, Triple
 from inspect_cli.schema.geometry import Shape
 
@@ -38,6 +38,13 @@ class PostureModel(Strict):
     def posture(self) -> Posture:
         """The posture that is spelled out."""
         return Posture(np.array(self.p_WB), np.array(self.q_WB), np.array(self.arm_angle_rad))
+
+
+class MarginModel(Strict):
+    """What is left of one of the vehicle's limits."""
+
+    value: float
+    unit: str
 
 
 class FitReport(Strict):
@@ -108,22 +115,34 @@ class Target(Strict):
     """Outward normal of the fitted surface there."""
     q_WT: Quaternion
     sensor: Literal["half_cell"] | None
-    press_m: NonNegative
+    law: Annotated[ContactLaw, Field(discriminator="kind")] | None = None
+    """How the tool is pressed on the surface; None where nothing is touched."""
     dwell_s: NonNegative
     standoff_m: NonNegative
+    cell_m: tuple[Positive, Positive] | None = None
+    """Widths along u and v of the part of the surface that the point stands for; None where
+    nothing is touched, and for a point that stands alone."""
     off_target_m: Positive = 0.03
     """A reading taken farther than this from its point, along the surface, does not count."""
     standoff: PostureModel
     """The vehicle with its tool ``standoff_m`` from the surface."""
     contact: PostureModel
-    """The vehicle with its tip on the surface; the set-point lies ``press_m`` behind it."""
-    expected_force_n: NonNegative
-    thrust_margin_n: float
-    tilt_margin_rad: float | None
-    """None where tilts turn freely."""
+    """The vehicle with its tip on the surface, held there by the law of contact."""
+    margins: dict[str, MarginModel] = {}
+    """The least of each on the way in and out, by the vehicle's own names."""
     clearance_m: float | None
     """Least distance of the body from the structure on the way in and out, or in a pose; None
     where no structure is known."""
+
+    @property
+    def press_m(self) -> float:
+        """How far the set-point lies behind the surface."""
+        return 0.0 if self.law is None else self.law.depth_m
+
+    @property
+    def expected_force_n(self) -> float:
+        """The steady normal force while the tool presses."""
+        return 0.0 if self.law is None else self.law.expected_force_n
 
 
 class Leg(Strict):

@@ -10,22 +10,20 @@ from inspect_cli.errors import Problem
 from inspect_cli.schema.campaign import inside, is_file
 from inspect_cli.schema.explain import shown, suggest
 from inspect_cli.schema.nodes import Node, join, matches, replaced
+from inspect_cli.schema.specimens import SPECIMENS
+from inspect_cli.schema.tasks import TASK_KINDS
 
 FILES = (
     "structure.*.surface.cloud",
     "structure.*.surface.mesh",
-    "tasks.*.trace.svg",
+    *(f"tasks.*.{name}.{key}" for name, kind in TASK_KINDS.items() for key in kind.file_keys),
     "truth.structure.*.geometry.file",
-    "truth.structure.*.specimen.potential_mv",
-    "truth.structure.*.specimen.resistivity_kohm_cm",
+    *(f"truth.structure.*.specimen.{key}" for model in SPECIMENS.values() for key in model.files),
 )
 """Where a mission names files; their paths are relative to the file that they stand in."""
 
-SURFACES = (
-    "tasks.*.contact_grid.on",
-    "tasks.*.contact_points.on",
-    "tasks.*.coverage.on",
-    "tasks.*.trace.on",
+SURFACES = tuple(
+    f"tasks.*.{name}.{kind.surface_key}" for name, kind in TASK_KINDS.items() if kind.surface_key
 )
 """Where a mission names one of its surfaces."""
 
@@ -93,14 +91,15 @@ def dangling_surfaces(mission: Node) -> list[Problem]:
     return problems
 
 
-def crowded_coverages(mission: Node) -> list[Problem]:
-    """Coverages that are not the only task of their mission."""
+def crowded_tasks(mission: Node) -> list[Problem]:
+    """Tasks that must be the only one of their mission and are not."""
     tasks = mission.child("tasks")
     if tasks is None or len(list(tasks.children())) < 2:
         return []
-    what = "a coverage is split into sorties and must be the only task of its mission"
     hint = "give it a mission of its own"
     return [
-        Problem(what, node.key_at(join(steps)), hint)
-        for steps, node in matches(mission, "tasks.*.coverage")
+        Problem(kind.alone, node.key_at(join(steps)), hint)
+        for name, kind in TASK_KINDS.items()
+        if kind.alone
+        for steps, node in matches(mission, f"tasks.*.{name}")
     ]

@@ -13,50 +13,7 @@ from pydantic import Field, model_validator
 from inspect_cli.schema.base import Count, Name, NonNegative, Positive, Strict, Triple
 from inspect_cli.schema.disturbances import Disturbance, refuse_impossible
 from inspect_cli.schema.geometry import Displacement, TrueShape
-from inspect_cli.schema.macro_cell import MacroCellSpecimen, refuse_unfit
-
-
-class AnalyticSpot(Strict):
-    """A Gaussian depression of potential around an active site, on the surface's (u, v)."""
-
-    at_m: tuple[float, float]
-    depth_v: Positive
-    """How much more negative the potential is at the centre."""
-    radius_m: Positive
-    """Standard deviation of the Gaussian."""
-    resistivity_factor: Positive = 1.0
-    """Resistivity at the centre as a share of the sound concrete's."""
-
-
-class AnalyticSpecimen(Strict):
-    """Sound concrete with Gaussian active spots; potentials in V against copper sulphate."""
-
-    model: Literal["analytic"]
-    potential_v: float = -0.1
-    resistivity_ohm_m: Positive = 200.0
-    temperature_c: Annotated[float, Field(ge=0, le=49)] = 22.2
-    """Of the concrete, in which a copper sulphate electrode reads these potentials."""
-    spots: tuple[AnalyticSpot, ...] = ()
-
-
-class GridSpecimen(Strict):
-    """Potential and resistivity measured on a grid, interpolated bilinearly between its nodes."""
-
-    model: Literal["grid"]
-    potential_mv: str
-    """File of potentials, mV against copper sulphate: CSV, or columns of plain numbers."""
-    resistivity_kohm_cm: str
-    """File of resistivities of the same grid, kΩ·cm."""
-    pitch_m: Positive
-    at_m: tuple[float, float] = (0.0, 0.0)
-    """(u, v) of the grid's middle on the surface; columns run along u, rows along −v."""
-    temperature_c: Annotated[float, Field(ge=0, le=49)] = 22.2
-    """Of the concrete, in which a copper sulphate electrode reads these potentials."""
-
-
-Specimen = Annotated[
-    AnalyticSpecimen | GridSpecimen | MacroCellSpecimen, Field(discriminator="model")
-]
+from inspect_cli.schema.specimens import Specimen
 
 
 class ForceSensorModel(Strict):
@@ -90,8 +47,8 @@ class TrueSurface(Strict):
 
     @model_validator(mode="after")
     def _specimen_fits(self) -> TrueSurface:
-        if isinstance(self.specimen, MacroCellSpecimen) and self.geometry is not None:
-            refuse_unfit(self.specimen, self.geometry)
+        if self.specimen is not None and self.geometry is not None:
+            self.specimen.refuse_unfit(self.geometry)
         return self
 
 
@@ -114,12 +71,17 @@ class ProximityEffects(Strict):
     wall: bool = True
 
 
-class SensorFault(Strict):
-    """A sensor that fails during the flight. Nothing flies on without its inertial unit."""
+WALL = "wall"
+"""Name of the force sensor that a surface is mounted on, among the sensors of a flight."""
 
-    sensor: Literal["tof", "pose", "odometry", "probe"]
+
+class SensorFault(Strict):
+    """A sensor that fails during the flight."""
+
+    sensor: Name
+    """One of the platform's sensors, or ``wall`` for the force sensor that carries a surface."""
     fault: Literal["off", "nan", "holes"] = "off"
-    """Silent, not a number, or (the depth camera alone) without a return in random patches."""
+    """Silent, not a number, or (a depth camera alone) without a return in random patches."""
     share: Annotated[float, Field(gt=0, lt=1)] | None = None
     """Of the pixels that holes take from every image."""
     start_s: NonNegative = 0.0
@@ -133,9 +95,7 @@ class SensorFault(Strict):
         return self
 
     @model_validator(mode="after")
-    def _only_images_have_holes(self) -> SensorFault:
-        if self.fault == "holes" and self.sensor != "tof":
-            raise ValueError(f"only the images of tof have holes; {self.sensor} can be off or nan")
+    def _holes_have_a_share(self) -> SensorFault:
         if self.fault == "holes" and self.share is None:
             raise ValueError("holes need a share of the pixels, such as share: 0.5")
         if self.fault != "holes" and self.share is not None:
@@ -159,5 +119,5 @@ class TruthModel(Strict):
 
     @property
     def loads_depend_on_the_flight(self) -> bool:
-        """Whether a rope, a wind or a cable acts: their forces are worth a channel of the log."""
-        return any(entry.kind != "constant" for entry in self.disturbances)
+        """Whether a rope, a wind or the like acts: their forces are worth a channel of the log."""
+        return any(entry.depends_on_flight for entry in self.disturbances)

@@ -1,1 +1,1 @@
-"""Simulated instruments. They may read the truth; what they return is all that flies on."""
+"""Simulated sensors. They may read the truth; what they return is all that flies on."""

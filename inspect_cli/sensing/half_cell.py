@@ -27,10 +27,11 @@ from typing import Final, TypeVar
 import numpy as np
 
 from inspect_cli.assessment.electrodes import electrode_shift_v
-from inspect_cli.records import Probe, State, TrueContact
+from inspect_cli.records import Probe
 from inspect_cli.schema.vehicle import HalfCellModel
-from inspect_cli.sensing.instrument import Noise
+from inspect_cli.sensing.instrument import Noise, Surroundings
 from inspect_cli.spatial.arrays import Vector
+from inspect_cli.truth.snapshot import Truth
 
 TOUCH_N: Final = 0.05
 """True normal force from which the electrode touches."""
@@ -103,9 +104,9 @@ class HalfCellProbe:
         self._wetted_s = 0.0
         self._floating_v = 0.0
 
-    def sample(self, state: State, contact: TrueContact) -> None:
-        """Measure now; ``contact`` tells what lies under the tip."""
-        t, force = state.t_s, state.f_normal
+    def sample(self, truth: Truth) -> Probe:
+        """Measure now."""
+        t, force = truth.state.t_s, truth.state.f_normal
         dt, self._t = t - self._t, t
         noise = self._noise.draw().tolist()
         self._float(dt, noise[3])
@@ -116,17 +117,19 @@ class HalfCellProbe:
         measurement.resistance = OVER_RANGE_OHM
         if not force > TOUCH_N:
             self._wetted_s *= math.exp(-dt / DRYING_S)
-            return
+            return measurement
         self._wetted_s += dt
+        contact = truth.contact()
         potential, resistivity = contact.potential, contact.resistivity
         if math.isnan(potential) or math.isnan(resistivity):
-            return
+            return measurement
         dryness = math.exp(-self._wetted_s / self._model.wetting_s)
         lightness = max(0.0, 1.0 - force / self._model.min_force_n)
         potential += self._shift_on(int(contact.surface))
         measurement.potential = shown_potential(self._model, potential, dryness, noise[0])
         resistance = shown_resistance(self._model, resistivity, dryness, lightness, noise[1])
         measurement.resistance = min(max(0.0, resistance), OVER_RANGE_OHM)
+        return measurement
 
     def _shift_on(self, surface: int) -> float:
         """From CSE to the probe's electrode on a surface, V."""
@@ -137,3 +140,8 @@ class HalfCellProbe:
         keep = math.exp(-dt / FLOATING_S)
         spread = FLOATING_V * math.sqrt(1.0 - keep * keep)
         self._floating_v = keep * self._floating_v + spread * noise
+
+
+def half_cell_probe(model: HalfCellModel, around: Surroundings) -> HalfCellProbe:
+    """The probe of a flight."""
+    return HalfCellProbe(model, around.rng, around.structure.temperatures_c)

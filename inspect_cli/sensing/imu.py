@@ -15,10 +15,11 @@ import numpy as np
 from inspect_cli.compiled import bound, kernel
 from inspect_cli.records import Imu, State
 from inspect_cli.schema.vehicle import ImuModel
-from inspect_cli.sensing.instrument import Noise
+from inspect_cli.sensing.instrument import Noise, Surroundings
 from inspect_cli.spatial.arrays import Matrix, Vector
 from inspect_cli.spatial.constants import GRAVITY_MPS2
 from inspect_cli.spatial.rotations import rotate_back
+from inspect_cli.truth.snapshot import Truth
 
 
 @kernel
@@ -57,9 +58,9 @@ def measure_motion(
 class ImuSensor:
     """Specific force and angular rate of the body."""
 
-    def __init__(self, model: ImuModel, rate_hz: int, rng: np.random.Generator) -> None:
+    def __init__(self, model: ImuModel, rng: np.random.Generator) -> None:
         self.measurement = Imu.create()
-        root = np.sqrt(rate_hz)
+        root = np.sqrt(model.rate_hz)
         self._sd = np.array(
             [
                 model.accel_noise * root,
@@ -73,11 +74,11 @@ class ImuSensor:
         self._noise = Noise(rng, 12)
         self._seen: State | None = None
 
-    def sample(self, state: State) -> None:
+    def sample(self, truth: Truth) -> Imu:
         """Measure now."""
-        if state is not self._seen:
-            self._seen = state
-            true, measured = state.views, self.measurement.views
+        if truth.state is not self._seen:
+            self._seen = truth.state
+            true, measured = truth.state.views, self.measurement.views
             self._measure = bound(
                 measure_motion,
                 true["t_s"],
@@ -93,3 +94,9 @@ class ImuSensor:
                 then=(0,),
             )
         self._measure(self._noise.next_row())
+        return self.measurement
+
+
+def imu_sensor(model: ImuModel, around: Surroundings) -> ImuSensor:
+    """The inertial unit of a flight."""
+    return ImuSensor(model, around.rng)

@@ -1,12 +1,17 @@
-"""What the simulated instruments share: standard normal numbers, drawn in blocks."""
+"""What simulated sensors share: their interface, what they are built from, and their noise."""
 
 from __future__ import annotations
 
-from typing import Final
+from dataclasses import dataclass
+from typing import Final, Protocol
 
 import numpy as np
 
+from inspect_cli.records import Measurement
+from inspect_cli.schema.truth import TruthModel
 from inspect_cli.spatial.arrays import Matrix, Vector
+from inspect_cli.truth.geometry import StructureTruth
+from inspect_cli.truth.snapshot import Truth
 
 BLOCK: Final = 256
 """Samples drawn at once; one call of the generator per sample would cost more than the sample."""
@@ -36,3 +41,28 @@ class Noise:
         """The next vector: a view that stays as it is until the next call."""
         row: Vector = self.block[self.next_row()]
         return row
+
+
+class SimulatedSensor(Protocol):
+    """A sensor that measures the truth."""
+
+    @property
+    def measurement(self) -> Measurement:
+        """The last measurement; the same object as ``sample`` returns, or memory shared with it."""
+        ...
+
+    def sample(self, truth: Truth) -> Measurement | None:
+        """Measure now; None where there is nothing to hand on yet."""
+        ...
+
+
+@dataclass(frozen=True)
+class Surroundings:
+    """What a simulated sensor is built from besides the numbers of its kind."""
+
+    structure: StructureTruth
+    """The true surfaces."""
+    truth: TruthModel
+    """What else is so in this flight."""
+    rng: np.random.Generator
+    """The sensor's own generator."""

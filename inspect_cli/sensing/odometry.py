@@ -30,9 +30,9 @@ import numpy as np
 from inspect_cli.compiled import bound, kernel
 from inspect_cli.records import Odometry, State
 from inspect_cli.schema.base import Triple
-from inspect_cli.schema.positioning import OdometryModel
-from inspect_cli.sensing.instrument import Noise
-from inspect_cli.sensing.pose import measure_pose
+from inspect_cli.schema.vehicle import OdometryModel
+from inspect_cli.sensing.instrument import Noise, Surroundings
+from inspect_cli.sensing.pose_tracker import measure_pose
 from inspect_cli.spatial.arrays import Matrix, Vector
 from inspect_cli.spatial.rotations import (
     quaternion_conjugate,
@@ -41,6 +41,7 @@ from inspect_cli.spatial.rotations import (
     quaternion_multiply,
     rotate,
 )
+from inspect_cli.truth.snapshot import Truth
 
 
 @kernel
@@ -131,8 +132,9 @@ class OdometrySensor:
         self._state: State | None = None
         self._started = False
 
-    def sample(self, state: State) -> None:
+    def sample(self, truth: Truth) -> Odometry:
         """Measure now."""
+        state = truth.state
         if not self._started:
             self._believed[:3] = self._last[:3] = state.p_WB
             self._last[3:] = state.q_WB
@@ -160,3 +162,9 @@ class OdometrySensor:
                 then=(0,),
             )
         self._measure(self._noise.next_row())
+        return self.measurement
+
+
+def odometry_sensor(model: OdometryModel, around: Surroundings) -> OdometrySensor:
+    """The odometry of a flight, with the steady drift that the truth states."""
+    return OdometrySensor(model, around.rng, around.truth.platform.odometry_drift_mps)

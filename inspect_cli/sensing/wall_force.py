@@ -19,6 +19,7 @@ from inspect_cli.schema.truth import ForceSensorModel
 from inspect_cli.sensing.instrument import Noise
 from inspect_cli.spatial.arrays import Structured, Vector
 from inspect_cli.spatial.rotations import cross, matrix_to_quaternion, quaternion_conjugate, rotate
+from inspect_cli.truth.snapshot import Truth
 
 
 class WallForceSensor:
@@ -42,8 +43,9 @@ class WallForceSensor:
         self._noise = Noise(rng, 6)
         self._filled = 0
 
-    def sample(self, t_s: float, wrench_W: Vector) -> bool:
-        """Measure the wrench (6,) about O_W; whether the block is complete now."""
+    def sample(self, truth: Truth) -> WallForce | None:
+        """Measure the wrench of the tool; the block of samples once it is full."""
+        wrench_W = truth.wall_wrench()
         self._filled %= WALL_SAMPLES
         force = wrench_W[:3]
         ideal = np.empty(6)
@@ -52,9 +54,9 @@ class WallForceSensor:
         output = rounded(ideal + self._sd * self._noise.draw(), self._resolution)
         block = self.measurement
         block.f_S[self._filled], block.t_S[self._filled] = output[:3], output[3:]
-        block.t_s = t_s
+        block.t_s = truth.state.t_s
         self._filled += 1
-        return self._filled == WALL_SAMPLES
+        return block if self._filled == WALL_SAMPLES else None
 
 
 def rounded(values: Vector, steps: Vector) -> Vector:

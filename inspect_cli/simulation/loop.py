@@ -8,31 +8,45 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from functools import partial
 from time import perf_counter
 
 import numpy as np
 
 from inspect_cli.autonomy.executive import Executive
-from inspect_cli.interfaces import DepthImage
 from inspect_cli.log.writer import LogWriter
-from inspect_cli.records import State, SurfaceEstimate
+from inspect_cli.records import (
+    DepthImage,
+    Imu,
+    Measurement,
+    Odometry,
+    Pose,
+    Record,
+    SurfaceEstimate,
+    WallForce,
+)
 from inspect_cli.schema.plan import Plan, Target
 from inspect_cli.schema.positioning import Estimation
 from inspect_cli.schema.result import Status
 from inspect_cli.schema.truth import TruthModel
+from inspect_cli.schema.vehicle import HalfCellModel
 from inspect_cli.sensing.reading import ReadingJudge
 from inspect_cli.simulation.clock import Clock, Tick
-from inspect_cli.simulation.instruments import Instruments
+from inspect_cli.simulation.mounts import Listener, Mount, mounts_of
 from inspect_cli.simulation.plant import Plant
 from inspect_cli.simulation.randomness import component_rng
 from inspect_cli.simulation.recorder import Recorder
 from inspect_cli.simulation.world import build_world
 from inspect_cli.truth.contact import ContactTruth
 from inspect_cli.truth.disturbances import Disturbances
-from inspect_cli.truth.faults import Faults
 from inspect_cli.truth.geometry import StructureTruth
 from inspect_cli.truth.proximity import Proximity
+from inspect_cli.truth.snapshot import Truth
+from inspect_cli.vehicles.actuators import rotor_radii_m
 from inspect_cli.vehicles.kinds import Vehicle
+
+PROGRESS_S = 0.1
+"""Between two calls of ``progress``."""
 
 
 @dataclass(frozen=True)
@@ -62,8 +76,8 @@ class Flight:
         platform, lengths = vehicle.platform, vehicle.capabilities.lengths
         rates = platform.rates
         model = build_world(vehicle, truth.platform, structure)
-        radius_m = vehicle.actuators.rotor_radius_m
-        proximity = Proximity(truth.proximity, structure.solids, radius_m)
+        radii_m = rotor_radii_m(vehicle.actuators)
+        proximity = Proximity(truth.proximity, structure.solids, radii_m)
         gusts = component_rng(seed, "wind")
         disturbances = Disturbances(truth.disturbances, gusts, rates.control_hz)
         self.plant = Plant(
@@ -77,19 +91,14 @@ class Flight:
         )
         self.plan = plan
         self.contact = ContactTruth(structure)
-        faults = Faults(truth.faults)
-        self.instruments = Instruments(
-            platform,
-            structure,
-            faults,
-            seed,
-            estimation,
-            truth.platform.odometry_drift_mps,
-        )
+        state = self.plant.state
+        self.truth = Truth(state, partial(self.contact.update, state), self.plant.wall_wrench)
+        reads_with = {target.sensor for target in plan.targets if target.sensor is not None}
+        self.mounts = mounts_of(platform, structure, truth, seed, estimation, reads_with)
         self.stack = vehicle.flight_stack(plan, estimation)
 
         def judge(target: Target) -> ReadingJudge:
-            return ReadingJudge(platform.sensors.half_cell, target.dwell_s)
+            return ReadingJudge(platform.sensor(HalfCellModel), target.dwell_s)
 
         limit_s = 60.0 + 2.0 * plan.duration_s
         behaviour = vehicle.behaviour
@@ -98,26 +107,21 @@ class Flight:
         self.recorder = Recorder(
             log,
             self.plant.state,
-            self.contact.contact,
+            (self.contact.contact, *self.plant.contacts.values()),
             self.stack,
-            self.instruments,
+            [m.sensor.measurement for m in self.mounts if isinstance(m.sensor.measurement, Imu)],
             disturbances.load.record if truth.loads_depend_on_the_flight else None,
         )
-        _, pose_hz = platform.positioning(estimation)
-        due = {
-            "imu": rates.imu_hz,
-            "pose": pose_hz,
-            "tof": rates.tof_hz,
+        for mount in self.mounts:
+            if isinstance(mount.sensor.measurement, Record):
+                log.declare(type(mount.sensor.measurement))
+            mount.listeners = self._listeners(mount)
+        due = {mount.name: mount.rate_hz for mount in self.mounts} | {
             "mission": rates.mission_hz,
             "control": rates.control_hz,
             "log": rates.log_hz,
             **self.stack.loops,
         }
-        if any(target.sensor is not None for target in plan.targets):
-            due["probe"] = rates.probe_hz
-        for surface in structure.surfaces:
-            if surface.force_sensor is not None:
-                due["wall"] = surface.force_sensor.rate_hz
         self.clock = Clock(rates.physics_hz, due)
         self._limit_s = limit_s + 60.0
 
@@ -129,10 +133,12 @@ class Flight:
         if not self._start_stack():
             self.executive.give_up("aborted", "no pose measurement to start from")
             return Ending("aborted", self.executive.reason, t_s, perf_counter() - begun, 0.0)
+        report_s = 0.0
         for tick in self.clock.ticks(self._limit_s):
             t_s = tick.t_s
             self._tick(tick)
-            if progress is not None and "tof" in tick.due:
+            if progress is not None and t_s >= report_s:
+                report_s += PROGRESS_S
                 progress(t_s)
             if self.executive.finished:
                 break
@@ -144,9 +150,11 @@ class Flight:
 
     def _start_stack(self) -> bool:
         """Begin the estimate at the first pose measurement, if there is one."""
-        heard = self.instruments.sample_pose(self.plant.state)
-        pose = self.instruments.pose.measurement
-        if not (heard and np.isfinite(pose.p_WB).all() and np.isfinite(pose.q_WB).all()):
+        sources = (m for m in self.mounts if isinstance(m.sensor.measurement, Pose))
+        pose = next((source.sample(self.truth) for source in sources), None)
+        if not isinstance(pose, Pose):
+            return False
+        if not (np.isfinite(pose.p_WB).all() and np.isfinite(pose.q_WB).all()):
             return False
         self.stack.start(pose)
         return True
@@ -154,16 +162,10 @@ class Flight:
     def _tick(self, tick: Tick) -> None:
         due, plant, stack = tick.due, self.plant, self.stack
         state = plant.observe(tick.t_s)
-        if "imu" in due and self.instruments.sample_imu(state):
-            stack.hear(self.instruments.imu.measurement)
-        if "pose" in due:
-            self._correct_estimate(tick.t_s, state)
-        if "wall" in due:
-            self._feel_wall(tick.t_s)
-        if "tof" in due and self.instruments.sample_tof(state):
-            self._see_surface(tick.t_s)
-        if "probe" in due:
-            self._sample_probe()
+        for mount in self.mounts:
+            if mount.name in due and (measurement := mount.sample(self.truth)) is not None:
+                for listener in mount.listeners:
+                    listener(measurement)
         for loop in stack.loops:
             if loop in due:
                 stack.run(loop, tick.t_s)
@@ -177,35 +179,33 @@ class Flight:
             if "control" not in due:
                 stack.refer(tick.t_s)
             self.contact.update(state)
+            plant.observe_contacts(tick.t_s)
             self.recorder.rows(tick.t_s)
 
-    def _feel_wall(self, t_s: float) -> None:
-        block = self.instruments.sample_wall(t_s, self.plant.wall_wrench())
-        if block is not None:
-            self.recorder.row(block)
+    def _listeners(self, mount: Mount) -> tuple[Listener, ...]:
+        """Who hears a sensor, by what it returns: unless it says otherwise, all and the log."""
+        row = self.recorder.row
+        heard_by: dict[type, tuple[Listener, ...]] = {
+            Imu: (self.stack.hear,),  # logged with the other channels at the log's rate
+            Pose: (self._hear,),
+            Odometry: (row, self._hear),
+            DepthImage: (partial(self._see, mount.name),),
+            WallForce: (row,),  # it measures the truth, which the vehicle must not know
+        }
+        return heard_by.get(type(mount.sensor.measurement), (self._hear, row))
 
-    def _correct_estimate(self, t_s: float, state: State) -> None:
-        heard = self.instruments.sample_pose(state)
-        if heard and self.instruments.odometry is not None:
-            self.recorder.row(self.instruments.odometry.measurement)
-        if heard and (pose := self.stack.hear(self.instruments.pose.measurement)) is not None:
-            self.executive.hear(pose)
+    def _hear(self, measurement: Measurement) -> None:
+        """Hand a measurement to the stack, and what it makes of it to the executive."""
+        heard = self.stack.hear(measurement)
+        if heard is not None:
+            self.executive.hear(heard)
 
-    def _see_surface(self, t_s: float) -> None:
-        """Have the stack turn the depth image into a surface estimate."""
-        image = DepthImage(t_s, self.instruments.tof.points_D)
+    def _see(self, camera: str, image: DepthImage) -> None:
+        """Have the stack turn the image of a camera, given by its name, into a surface estimate."""
         surface = self.stack.hear(image)
         if isinstance(surface, SurfaceEstimate):
             self.executive.hear(surface)
-            self.recorder.surface(surface, image, *self.stack.believed("tof"))
-
-    def _sample_probe(self) -> None:
-        contact = self.contact.update(self.plant.state)
-        probe = self.instruments.sample_probe(self.plant.state, contact)
-        if probe is None:
-            return
-        self.executive.hear(probe)
-        self.recorder.row(probe)
+            self.recorder.surface(surface, image, *self.stack.believed(camera))
 
     def _decide(self, t_s: float) -> None:
         """The mission rate: surroundings, divergence, executive."""

@@ -1,10 +1,11 @@
-"""Plates: what the tool's tip meets of a hollow or irregular surface.
+"""Plates: the boxes that stand for a hollow or irregular surface at the vehicle's contacts.
 
-A plate is a box on a mocap body. Before each stretch of physics it is placed so that its front is
-the plane tangent to the true surface at the foot of the tip's middle, so that a tip at rest has
-the very depth and normal that the surface gives. A mocap body has no velocity in MuJoCo's
-constraints and friction there has no memory of places: a plate that is put elsewhere neither
-carries nor kicks the tip.
+A plate is a box on a mocap body, one for each surface and each geom of a contact. Before each
+stretch of physics it is placed so that its front is the plane tangent to the true surface at the
+foot of the geom's middle, so that a tip at rest has the very depth and normal that the surface
+gives. The rest of this page says "tip" for every such geom. A mocap body has no velocity in
+MuJoCo's constraints and friction there has no memory of places: a plate that is put elsewhere
+neither carries nor kicks the tip.
 
 Between two placings the tip slides s = v Δt and the surface leaves the plane by s²/2R: at 0.2 m/s,
 4 ms and R = 1.5 m that is 0.2 μm. The normal lags by s/R = 0.5 mrad, so the damper sees v s/R
@@ -12,19 +13,22 @@ Between two placings the tip slides s = v Δt and the surface leaves the plane b
 
 A plate is engaged once the tip's middle is on the free side with its foot on the surface, and
 parked when the foot leaves the surface, or the tip is farther than ``REACH_M`` away or deeper
-than ``BEHIND_M``: so what slides off an edge is free at once, and what comes back from behind
-meets nothing.
+than ``BEHIND_M``: so a tip that slides off an edge is free at once, and one that comes
+back from behind touches nothing.
 """
 
 from __future__ import annotations
+
+from collections.abc import Sequence
 
 import mujoco
 import numpy as np
 
 from inspect_cli.compiled import bound, kernel
 from inspect_cli.simulation.surface_geoms import WALL_THICKNESS_M, plate_name
-from inspect_cli.spatial.arrays import Indices, Mask, Points, Vector
+from inspect_cli.spatial.arrays import Indices, Mask, Points
 from inspect_cli.truth.solids import Solids, foot_on, normal_on, point_on
+from inspect_cli.vehicles.contacts import Contact
 
 REACH_M = 0.3
 BEHIND_M = 0.05
@@ -37,19 +41,22 @@ def place_plates(
     solids: Solids,
     surfaces: Indices,
     slots: Indices,
-    p_W: Vector,
+    geoms: Indices,
+    geom_xpos: Points,
     thickness: float,
     engaged: Mask,
     mocap_pos: Points,
     mocap_quat: Points,
 ) -> None:
-    """Put the plate in ``slots[k]`` below the point ``p_W`` (3,) on surface ``surfaces[k]``.
+    """Put the plate in ``slots[k]`` below the middle of ``geoms[k]`` on surface ``surfaces[k]``.
+
+    ``geom_xpos`` (n, 3) are MuJoCo's places of all geoms, in W.
 
     A box has two fronts alike, so z of the box is n or −n, whichever is nearer to z_W: that turn,
     about (−m_y, m_x, 0), is well defined for every normal.
     """
     for k in range(surfaces.shape[0]):
-        u, v, w, on = foot_on(solids, surfaces[k], p_W)
+        u, v, w, on = foot_on(solids, surfaces[k], geom_xpos[geoms[k]])
         engaged[k] = on and -BEHIND_M < w < REACH_M and (engaged[k] or w >= 0.0)
         slot = slots[k]
         if not engaged[k]:
@@ -71,12 +78,19 @@ def place_plates(
 
 
 class Plates:
-    """The plates of one world, following one tip."""
+    """The plates of one world, each following one geom of a contact."""
 
-    def __init__(self, model: mujoco.MjModel, data: mujoco.MjData, solids: Solids) -> None:
+    def __init__(
+        self,
+        model: mujoco.MjModel,
+        data: mujoco.MjData,
+        solids: Solids,
+        contacts: Sequence[Contact],
+    ) -> None:
         named = {model.body(b).name: int(model.body_mocapid[b]) for b in range(model.nbody)}
         count = len(solids.primitives) + len(solids.reliefs)
-        plated = [i for i in range(count) if plate_name(i) in named]
+        touching = [geom for contact in contacts for geom in contact.geoms]
+        plated = [(i, g) for i in range(count) for g in touching if plate_name(i, g) in named]
         self._engaged = np.zeros(len(plated), np.bool_)
         self.any = bool(plated)
         """Whether there is anything to place."""
@@ -84,9 +98,10 @@ class Plates:
             self._place = bound(
                 place_plates,
                 solids,
-                np.array(plated, dtype=np.int32),
-                np.array([named[plate_name(i)] for i in plated], dtype=np.int32),
-                data.geom_xpos[model.geom("tip").id],
+                np.array([i for i, _ in plated], dtype=np.int32),
+                np.array([named[plate_name(i, g)] for i, g in plated], dtype=np.int32),
+                np.array([model.geom(g).id for _, g in plated], dtype=np.int32),
+                data.geom_xpos,
                 WALL_THICKNESS_M,
                 self._engaged,
                 data.mocap_pos,
@@ -94,10 +109,10 @@ class Plates:
             )
 
     def reset(self) -> None:
-        """Forget what was touched."""
+        """Park all plates until a tip is in front of them again."""
         self._engaged[:] = False
 
     def follow(self) -> None:
-        """Place every plate below the tip, whose kinematics are up to date."""
+        """Place every plate below its geom, whose kinematics are up to date."""
         if self.any:
             self._place()

@@ -2,19 +2,20 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from time import perf_counter
 
 from inspect_cli.autonomy.context import Context
-from inspect_cli.interfaces import DepthImage, FlightStack
+from inspect_cli.interfaces import FlightStack
 from inspect_cli.log.writer import LogWriter
 from inspect_cli.records import (
+    DepthImage,
+    Imu,
     Record,
     State,
     SurfaceEstimate,
-    TrueContact,
     TrueDisturbance,
 )
-from inspect_cli.simulation.instruments import Instruments
 from inspect_cli.spatial.arrays import Matrix, Vector
 
 POSE_S = 0.1
@@ -30,16 +31,16 @@ class Recorder:
         self,
         log: LogWriter,
         state: State,
-        contact: TrueContact,
+        contacts: tuple[Record, ...],
         stack: FlightStack,
-        instruments: Instruments,
+        inertial: Sequence[Imu],
         disturbance: TrueDisturbance | None,
     ) -> None:
         self._log = log
         self._computed: tuple[Record, ...] = (stack.reference, stack.estimate, stack.command)
         if disturbance is not None:
             self._computed += (disturbance,)
-        continuous = (state, contact, *self._computed, instruments.imu.measurement)
+        continuous = (state, *contacts, *self._computed, *inertial)
         self._taps = [log.tap(record) for record in continuous]
         self._times = [record.views["t_s"] for record in self._computed]
         self._poses = {

@@ -1,15 +1,17 @@
-"""How MuJoCo meets the true surfaces.
+"""The true surfaces as MuJoCo's geoms.
 
 Planes and round surfaces seen from outside are geoms of their own, for everything that touches.
-A surface that is hollow or irregular has no such geom: for the tool's tip it is a *plate* that
-``simulation.plates`` keeps tangent below it, for the rest of the vehicle coarse *facets*, boxes
-whose fronts are tangent to it in their middles. On a hollow sphere or cylinder facets stand off
-by w²/4R or w²/8R, w their width: ``SHELL_SAGITTA_M`` or less until ``MOST_FACETS`` along a
+A surface that is hollow or irregular has no such geom: for each geom of a contact it is a *plate*
+that ``simulation.plates`` keeps tangent below it, for the rest of the vehicle coarse *facets*,
+boxes whose fronts are tangent to it in their middles. On a hollow sphere or cylinder facets stand
+off by w²/4R or w²/8R, w their width: ``SHELL_SAGITTA_M`` or less until ``MOST_FACETS`` along a
 coordinate make them wider. On a relief they are ``FACET_M`` wide, or wider for the same reason, and
 miss what is smaller.
 """
 
 from __future__ import annotations
+
+from collections.abc import Sequence
 
 import mujoco
 import numpy as np
@@ -20,6 +22,7 @@ from inspect_cli.spatial.rotations import matrix_to_quaternion
 from inspect_cli.truth.geometry import StructureTruth
 from inspect_cli.truth.relief import relief_covers
 from inspect_cli.truth.solids import Solids, normal_on, point_on
+from inspect_cli.vehicles.kinds import Bodies
 
 WALL_THICKNESS_M = 0.2
 SHELL_SAGITTA_M = 0.01
@@ -28,21 +31,27 @@ MOST_FACETS = 12
 OVERLAP = 1.1
 """Facets are so much wider than their share, since tangents of a hollow meet beyond it."""
 PLATE_HALF_M = 0.25
-"""Half the width of a plate; the tip slides less than a millimetre between two of its places."""
+"""Half the width of a plate; a contact slides less than a millimetre between two of its places."""
 TOUCHABLE, SHELL_ONLY = 1, 2
-"""Bits of MuJoCo's ``contype``: for all of the vehicle, for all but the tip."""
+"""Bits of MuJoCo's ``contype``: for all of the vehicle, for all but its contacts."""
 CONCRETE = [0.75, 0.74, 0.72, 1.0]
 
 
-def plate_name(surface: int) -> str:
-    """The mocap body and the geom of a surface's plate."""
-    return f"plate:{surface}"
+def plate_name(surface: int, geom: str) -> str:
+    """The mocap body and the geom of a surface's plate for one geom of a contact."""
+    return f"plate:{surface}:{geom}"
 
 
-def add_surfaces(spec: mujoco.MjSpec, structure: StructureTruth) -> list[str]:
-    """Add every surface's geoms to the world; return the one of each that the tip meets."""
+def add_surfaces(
+    spec: mujoco.MjSpec, structure: StructureTruth, touching: Sequence[str], bodies: Bodies
+) -> dict[str, list[str]]:
+    """Add every surface's geoms to the world; return the one of each that a geom meets.
+
+    ``touching`` are the geoms of the vehicle's contacts; the result has a list for each of them.
+    """
     prims = structure.solids.primitives
-    met, plated = [], False
+    met: dict[str, list[str]] = {geom: [] for geom in touching}
+    plated = False
     for index, surface in enumerate(structure.surfaces):
         if index < len(prims) and prims["kind"][index] == PLANE:
             name = f"{surface.name}:0:0"
@@ -51,11 +60,12 @@ def add_surfaces(spec: mujoco.MjSpec, structure: StructureTruth) -> list[str]:
             name = surface.name
             _add_round(spec, name, prims[index : index + 1])
         else:
+            plated, name = True, ""
             _add_facets(spec, surface.name, structure.solids, index)
-            name, plated = _add_plate(spec, index), True
-        met.append(name)
+        for geom in touching:
+            met[geom].append(name or _add_plate(spec, index, geom))
     if plated:
-        _let_the_shell_meet_facets(spec)
+        _let_others_meet_facets(spec, (*bodies.protected, *bodies.gear))
     return met
 
 
@@ -155,9 +165,9 @@ def _axes(n: Vector, ahead: Vector) -> Matrix:
     return np.ascontiguousarray(np.column_stack([x, np.cross(n, x), n]))
 
 
-def _add_plate(spec: mujoco.MjSpec, index: int) -> str:
+def _add_plate(spec: mujoco.MjSpec, index: int, touching: str) -> str:
     """A box on a mocap body, which meets what an explicit pair names and nothing else."""
-    name = plate_name(index)
+    name = plate_name(index, touching)
     body = spec.worldbody.add_body(name=name, mocap=True)
     body.add_geom(
         name=name,
@@ -171,8 +181,8 @@ def _add_plate(spec: mujoco.MjSpec, index: int) -> str:
     return name
 
 
-def _let_the_shell_meet_facets(spec: mujoco.MjSpec) -> None:
-    for name in ("shell", "gear"):
+def _let_others_meet_facets(spec: mujoco.MjSpec, bodies: Sequence[str]) -> None:
+    for name in bodies:
         for geom in spec.body(name).geoms:
             if geom.conaffinity:
                 geom.conaffinity |= SHELL_ONLY

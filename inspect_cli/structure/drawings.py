@@ -17,7 +17,8 @@ import numpy as np
 from inspect_cli.errors import InspectError
 from inspect_cli.scans.files import confined, refused, require_file
 from inspect_cli.schema.mission import Mission
-from inspect_cli.schema.tasks import MAX_POINTS, SHORTEST_M, Trace
+from inspect_cli.schema.tasks.base import MAX_POINTS, SHORTEST_M
+from inspect_cli.schema.tasks.trace import Trace
 from inspect_cli.spatial.arrays import Points, Vector
 
 Stroke = tuple[Points, ...]
@@ -39,9 +40,9 @@ NO_WIDTH = 1e-6
 def drawings_of(mission: Mission, root: Path) -> dict[int, tuple[Stroke, ...]]:
     """The strokes of every task that traces, by the task's place in the mission."""
     return {
-        place: strokes_of(task.trace, root)
+        place: strokes_of(task.work, root)
         for place, task in enumerate(mission.tasks)
-        if task.trace is not None
+        if isinstance(task.work, Trace)
     }
 
 

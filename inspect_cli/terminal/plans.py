@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -9,7 +10,7 @@ from rich.text import Text
 
 if TYPE_CHECKING:
     from inspect_cli.schema.coverage import CoveragePlan
-    from inspect_cli.schema.plan import Plan
+    from inspect_cli.schema.plan import Plan, Target
 from inspect_cli.terminal.printing import (
     UNSURE,
     console,
@@ -20,6 +21,9 @@ from inspect_cli.terminal.printing import (
     print_warnings,
     table_of,
 )
+
+DIGITS = {"N": ".1f"}
+"""How margins are shown, by their unit."""
 
 
 def print_any_plan(plan: Plan | CoveragePlan, file: Path) -> None:
@@ -36,10 +40,12 @@ def print_survey_plan(plan: CoveragePlan, file: Path) -> None:
     """The sorties with their points, times and energies, and the points that are left out."""
     out = console()
     _print_surfaces(plan.sorties[0].plan)
+    margins = _margin_units(sortie.plan for sortie in plan.sorties)
     table = table_of(
         f"{plan.mission}: sorties",
-        *("sortie", "points", "start x, y\n/m", "time\n/s", "energy\n/Wh", "way\n/m"),
-        *("cable\n/m", "least\nthrust\nmargin /N", "least\nclearance\n/m"),
+        *("sortie", "points", "start x, y\n/m", "time\n/s", "energy\n/Wh", "way\n/m", "cable\n/m"),
+        *(f"least\n{_words(name)}\nmargin /{unit}" for name, unit in margins.items()),
+        "least\nclearance\n/m",
     )
     for sortie in plan.sorties:
         flight = sortie.plan
@@ -51,7 +57,10 @@ def print_survey_plan(plan: CoveragePlan, file: Path) -> None:
             f"{flight.energy_wh:.1f}",
             f"{flight.path_m:.1f}",
             f"{flight.cable_m:.1f}",
-            f"{min(t.thrust_margin_n for t in flight.targets):.1f}",
+            *(
+                number(_least_margin(flight, name), DIGITS.get(margins[name], ".2f"))
+                for name in margins
+            ),
             number(min(_clearances(flight), default=None), ".2f"),
         )
     out.print(table)
@@ -77,10 +86,12 @@ def print_plan(plan: Plan, file: Path) -> None:
     """The surfaces, the points in the order of the flight, and what the flight takes."""
     out = console()
     _print_surfaces(plan)
+    margins = _margin_units([plan])
     points = table_of(
         f"{plan.mission}: targets",
         *("target", "kind", "surface", "x, y, z /m", "press\n/m", "force\n/N"),
-        *("thrust\nmargin\n/N", "clear-\nance\n/m"),
+        *(f"{_words(name)}\nmargin\n/{unit}" for name, unit in margins.items()),
+        "clear-\nance\n/m",
     )
     for target in plan.targets:
         points.add_row(
@@ -90,7 +101,7 @@ def print_plan(plan: Plan, file: Path) -> None:
             ", ".join(f"{x:.3f}" for x in target.p_WC),
             number(None if target.kind == "pose" else target.press_m, ".2f"),
             number(None if target.kind == "pose" else target.expected_force_n, ".2f"),
-            f"{target.thrust_margin_n:.1f}",
+            *(number(_margin(target, name), DIGITS.get(margins[name], ".2f")) for name in margins),
             number(target.clearance_m, ".2f"),
         )
     out.print(points)
@@ -104,6 +115,26 @@ def print_plan(plan: Plan, file: Path) -> None:
 
 def _clearances(plan: Plan) -> list[float]:
     return [t.clearance_m for t in plan.targets if t.clearance_m is not None]
+
+
+def _margin_units(plans: Iterable[Plan]) -> dict[str, str]:
+    """The units of all margins that the targets have, by their names."""
+    targets = (target for plan in plans for target in plan.targets)
+    return {name: one.unit for target in targets for name, one in target.margins.items()}
+
+
+def _margin(target: Target, name: str) -> float | None:
+    margin = target.margins.get(name)
+    return None if margin is None else margin.value
+
+
+def _least_margin(plan: Plan, name: str) -> float | None:
+    values = (_margin(target, name) for target in plan.targets)
+    return min((value for value in values if value is not None), default=None)
+
+
+def _words(name: str) -> str:
+    return name.replace("_", " ")
 
 
 def _print_surfaces(plan: Plan) -> None:

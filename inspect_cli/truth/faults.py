@@ -1,17 +1,22 @@
-"""Sensor faults of a mission: when a sensor is silent, talks nonsense or sees but in part."""
+"""Sensor faults of a mission: a sensor is silent, returns NaN, or sees only parts of an image."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
+from typing import TypeAlias
 
 import numpy as np
 
-from inspect_cli.records import Record
+from inspect_cli.records import DepthImage, Measurement
 from inspect_cli.schema.truth import SensorFault
 from inspect_cli.spatial.arrays import Points
+from inspect_cli.truth.snapshot import Truth
 
 PATCH_PIXELS = (3, 10)
 """A patch without a return is from 3 up to 9 pixels wide and as much high."""
+
+Sample: TypeAlias = Callable[[Truth], Measurement | None]
+"""Takes a measurement of the truth now; None where the sensor returns nothing yet."""
 
 
 class Faults:
@@ -28,8 +33,31 @@ class Faults:
                 return model
         return None
 
+    def applied_to(self, sensor: str, sample: Sample, rng: np.random.Generator) -> Sample:
+        """``sample`` with the faults of the sensor of that name; itself if it never fails.
 
-def spoil(measurement: Record) -> None:
+        ``rng`` places the holes in the images of a depth camera.
+        """
+        if all(model.sensor != sensor for model in self._models):
+            return sample
+
+        def sample_or_fail(truth: Truth) -> Measurement | None:
+            fault = self.active(sensor, truth.state.t_s)
+            if fault is not None and fault.fault == "off":
+                return None
+            measurement = sample(truth)
+            if fault is None or measurement is None:
+                return measurement
+            if fault.share is not None and isinstance(measurement, DepthImage):
+                punch_holes(measurement.image, fault.share, rng)
+            else:
+                spoil(measurement)
+            return measurement
+
+        return sample_or_fail
+
+
+def spoil(measurement: Measurement) -> None:
     """Overwrite everything but the time with NaN."""
     for name, view in measurement.views.items():
         if name != "t_s":

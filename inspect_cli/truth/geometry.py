@@ -13,14 +13,15 @@ from pathlib import Path
 from inspect_cli.assessment.electrodes import STANDARD_C
 from inspect_cli.errors import InputError, Location, Problem
 from inspect_cli.schema.geometry import MeshShape, TrueShape
-from inspect_cli.schema.macro_cell import MacroCellSpecimen, refuse_unfit
 from inspect_cli.schema.plan import PlannedSurface
 from inspect_cli.schema.primitives import displaced, primitives_of
-from inspect_cli.schema.truth import ForceSensorModel, Specimen, TrueSurface, TruthModel
+from inspect_cli.schema.specimens import SpecimenModel
+from inspect_cli.schema.truth import ForceSensorModel, TrueSurface, TruthModel
 from inspect_cli.truth.heights import MeshRelief, mesh_relief
 from inspect_cli.truth.macro_cell.patch import patch_of
 from inspect_cli.truth.solids import Solids, joined_reliefs
-from inspect_cli.truth.specimen import SpecimenField, load_specimen
+from inspect_cli.truth.specimens import load_specimen
+from inspect_cli.truth.specimens.fields import SpecimenField
 
 
 @dataclass(frozen=True)
@@ -79,7 +80,7 @@ def structure_of(surfaces: Sequence[SurfaceTruth]) -> StructureTruth:
 
 
 def _specimen(
-    name: str, model: Specimen | None, shape: TrueShape, relief: MeshRelief | None, root: Path
+    name: str, model: SpecimenModel | None, shape: TrueShape, relief: MeshRelief | None, root: Path
 ) -> SpecimenField | None:
     """The field under a surface.
 
@@ -92,8 +93,7 @@ def _specimen(
     patch = patch_of(shape, (float(extent[0]), float(extent[1])))
     here = Location("mission", path=specimen_path(name))
     try:
-        if isinstance(model, MacroCellSpecimen):
-            refuse_unfit(model, shape, patch.size_m)
+        model.refuse_unfit(shape, patch.size_m)
         return load_specimen(model, root, patch)
     except InputError as error:
         raise InputError([replace(p, where=p.where or here) for p in error.problems]) from error

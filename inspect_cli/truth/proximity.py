@@ -21,7 +21,7 @@ import numpy as np
 
 from inspect_cli.compiled import bound, kernel
 from inspect_cli.schema.truth import ProximityEffects
-from inspect_cli.spatial.arrays import Indices, Matrix, Points, Structured
+from inspect_cli.spatial.arrays import Indices, Matrix, Points, Structured, Vector
 from inspect_cli.spatial.primitives import patch_distance, raycast
 from inspect_cli.truth.relief import relief_foot
 from inspect_cli.truth.relief_rays import cast_on_reliefs
@@ -62,18 +62,19 @@ def set_thrust_factors(
     site_xpos: Points,
     site_xmat: Points,
     hubs: Indices,
-    radius_m: float,
+    rotors: Indices,
+    radii_m: Vector,
     ground: bool,
     ceiling: bool,
     wall: bool,
     gains: Matrix,
 ) -> None:
-    """Write the factor of each hub into the first column of ``gains``.
+    """Write the factor of each hub into the first column of ``gains``, in its rotor's row.
 
-    ``hubs`` (n,) are the sites of the rotors, in MuJoCo's arrays of positions and rotations; a
-    rotor's thrust is along its site's z. The first of ``surfaces`` is the ground, no wall. ``near``
-    (n, 3) are distances from other things: along the thrust, against it and to the nearest, m;
-    NaN along a direction in which there is nothing.
+    ``hubs`` (n,) are the sites of the rotors, in MuJoCo's arrays of positions and rotations, and
+    ``rotors`` (n,) their actuators; a rotor's thrust is along its site's z. The first of
+    ``surfaces`` is the ground, no wall. ``near`` (n, 3) are distances from other things: along
+    the thrust, against it and to the nearest, m; NaN along a direction in which there is nothing.
     """
     directions = np.empty((2, 3))
     ranges = np.empty(2)
@@ -88,16 +89,16 @@ def set_thrust_factors(
                 ranges[k] = near[i, k]
         factor = 1.0
         if ceiling and not np.isnan(ranges[0]):
-            factor *= ceiling_factor(ranges[0], radius_m)
+            factor *= ceiling_factor(ranges[0], radii_m[i])
         if ground and not np.isnan(ranges[1]):
-            factor *= ground_factor(ranges[1], radius_m)
+            factor *= ground_factor(ranges[1], radii_m[i])
         if wall:
             nearest = min(near[i, 2], REACH_M)
             for j in range(1, surfaces.shape[0]):
                 nearest = min(nearest, abs(patch_distance(surfaces, j, hub_W)))
             if nearest < REACH_M:
-                factor *= wall_factor(nearest, radius_m)
-        gains[i, 0] = factor
+                factor *= wall_factor(nearest, radii_m[i])
+        gains[rotors[i], 0] = factor
 
 
 @kernel
@@ -127,12 +128,12 @@ def near_reliefs(
 
 
 class Proximity:
-    """The effect of the true surfaces and the ground on a vehicle's rotors."""
+    """The effect of the true surfaces and the ground on rotors of the radii (n,), m."""
 
-    def __init__(self, effects: ProximityEffects, solids: Solids, radius_m: float) -> None:
+    def __init__(self, effects: ProximityEffects, solids: Solids, radii_m: Vector) -> None:
         self._solids = on_the_ground(solids)
         self._effects = effects
-        self._radius_m = radius_m
+        self._radii_m = radii_m
         self._gains: Matrix | None = None
 
     @property
@@ -140,15 +141,29 @@ class Proximity:
         """Whether any effect is switched on."""
         return self._effects.ground or self._effects.ceiling or self._effects.wall
 
-    def update(self, site_xpos: Points, site_xmat: Points, hubs: Indices, gains: Matrix) -> None:
+    def update(
+        self,
+        site_xpos: Points,
+        site_xmat: Points,
+        hubs: Indices,
+        rotors: Indices,
+        gains: Matrix,
+    ) -> None:
         """Set each rotor's gain to its factor; see ``set_thrust_factors``."""
         if gains is not self._gains or hubs is not self._hubs or site_xpos is not self._xpos:
-            self._bind(site_xpos, site_xmat, hubs, gains)
+            self._bind(site_xpos, site_xmat, hubs, rotors, gains)
         if self._look_for_reliefs is not None:
             self._look_for_reliefs()
         self._set()
 
-    def _bind(self, site_xpos: Points, site_xmat: Points, hubs: Indices, gains: Matrix) -> None:
+    def _bind(
+        self,
+        site_xpos: Points,
+        site_xmat: Points,
+        hubs: Indices,
+        rotors: Indices,
+        gains: Matrix,
+    ) -> None:
         effects, solids = self._effects, self._solids
         self._gains, self._hubs, self._xpos = gains, hubs, site_xpos
         near = np.tile([np.nan, np.nan, np.inf], (len(hubs), 1))
@@ -163,7 +178,8 @@ class Proximity:
             solids.primitives,
             near,
             *places,
-            self._radius_m,
+            rotors,
+            self._radii_m,
             effects.ground,
             effects.ceiling,
             effects.wall,

@@ -21,7 +21,7 @@ from inspect_cli.spatial.arrays import Mask, Points, Structured, Vector
 from inspect_cli.spatial.primitives import PLANE, SPHERE, point_at
 from inspect_cli.truth.geometry import StructureTruth
 from inspect_cli.truth.solids import Solids, foot_on
-from inspect_cli.truth.specimen import SpecimenField
+from inspect_cli.truth.specimens.fields import SpecimenField
 
 MOST_CELLS = 25_000
 """Of all rasters of a flight together, so that they take 50 ms at the most."""

@@ -1,6 +1,7 @@
 """One module per kind of platform: nominal MuJoCo model, Capabilities, flight stack.
 
-A new kind is a platform model in ``PLATFORM_KINDS``, a module here, and one line below.
+A new kind is a platform model in ``PLATFORM_KINDS``, a module here, and one line below. A package
+outside this one adds a kind as an entry point of the group ``inspect_cli.vehicles``.
 """
 
 from __future__ import annotations
@@ -9,11 +10,14 @@ from collections.abc import Callable
 from typing import Any
 
 from inspect_cli.errors import InputError
+from inspect_cli.plugins import registered
 from inspect_cli.schema.vehicle import PlatformBase
 from inspect_cli.vehicles.kinds import Vehicle
 from inspect_cli.vehicles.tilt_rotor import TiltRotor
 
-VEHICLES: dict[str, Callable[[Any], Vehicle]] = {"tilt_rotor": TiltRotor}
+VEHICLES: dict[str, Callable[[Any], Vehicle]] = registered(
+    "inspect_cli.vehicles", {"tilt_rotor": TiltRotor}
+)
 
 
 def build_vehicle(platform: PlatformBase) -> Vehicle:

@@ -1,11 +1,9 @@
 """What the simulator and the commands ask of a kind of vehicle.
 
-Contract of ``nominal_spec``: the first body is named ``core`` and has a free joint; fixed to it
-are the bodies ``shell`` (what must never touch) and ``gear`` (what stands on the ground), and
-fixed to it or at the end of the arm's joints is the body ``tool`` with the geom ``tip`` and the
-site ``tool_tip``, whose axes are T's. Joints are those of the tilts, then those of the arm.
-Actuators come in this order, each with one activation, which lags behind its control: one per
-rotor (free-air thrust, N), one per joint (angle, rad).
+Everything that they need of the MuJoCo model of ``nominal_spec`` is stated by name: bodies,
+frames, contacts, joints and actuators. The plant resolves the names when it is built and refuses
+what does not fit (``simulation.addresses``). The model's first joint is the free joint of the base
+body, whose frame is B.
 """
 
 from __future__ import annotations
@@ -20,29 +18,20 @@ from inspect_cli.interfaces import Capabilities, FlightStack
 from inspect_cli.schema.plan import Plan
 from inspect_cli.schema.positioning import Estimation
 from inspect_cli.schema.vehicle import PlatformBase
-from inspect_cli.spatial.arrays import Vector
+from inspect_cli.vehicles.actuators import Actuator
+from inspect_cli.vehicles.contacts import Contact
 
 
 @dataclass(frozen=True)
-class Actuators:
-    """Timing and geometry of the actuators that the plant moves."""
+class Bodies:
+    """Bodies of the MuJoCo model by name."""
 
-    time_up_s: Vector
-    """Lag (n_rotors,) of rising thrust."""
-    time_down_s: Vector
-    """Lag (n_rotors,) of falling thrust."""
-    joint_rate_radps: Vector
-    """Fastest motion (n_joints,) of the joints' set-points."""
-    rotor_radius_m: float
-
-
-@dataclass(frozen=True)
-class Tip:
-    """The tool's end and how stiff its contact is."""
-
-    radius_m: float
-    stiffness_npm: float
-    damping_ratio: float
+    base: str = "core"
+    """Carries the free joint; its frame is B."""
+    gear: tuple[str, ...] = ("gear",)
+    """What stands on the ground."""
+    protected: tuple[str, ...] = ("shell",)
+    """What must never touch anything; the forces on it are ``State.f_body``."""
 
 
 class Vehicle(Protocol):
@@ -59,13 +48,33 @@ class Vehicle(Protocol):
         ...
 
     @property
-    def actuators(self) -> Actuators:
-        """What the plant needs beyond the nominal model."""
+    def bodies(self) -> Bodies:
+        """The bodies that the simulator and the pictures treat differently."""
         ...
 
     @property
-    def tip(self) -> Tip:
-        """The tool's end."""
+    def frames(self) -> tuple[str, ...]:
+        """Sites of the model by name; one of them is ``tool``."""
+        ...
+
+    @property
+    def contacts(self) -> tuple[Contact, ...]:
+        """What touches surfaces on purpose; one of them has the frame ``tool``."""
+        ...
+
+    @property
+    def joints(self) -> tuple[str, ...]:
+        """All joints but the free one, in the order of ``State.joint_angle``."""
+        ...
+
+    @property
+    def posture_joints(self) -> tuple[str, ...]:
+        """The joints whose angles a Posture states, in its order."""
+        ...
+
+    @property
+    def actuators(self) -> tuple[Actuator, ...]:
+        """Rotors, servos and drives; those of a kind in the order of the records' arrays."""
         ...
 
     def nominal_spec(self) -> mujoco.MjSpec:

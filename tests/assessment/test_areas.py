@@ -11,12 +11,16 @@ from hypothesis.extra.numpy import arrays
 from surveyed import grid
 
 from inspect_cli.assessment.areas import Cells, cells_of
-from inspect_cli.assessment.spacing import spacing_of
+from inspect_cli.assessment.spacing import spacing_of, spacing_of_cells
 
 
 def cells(uv_m: object, pitch_m: float | None = None, region: object = None) -> Cells:
     uv = np.asarray(uv_m, dtype=np.float64).reshape(-1, 2)
-    found = cells_of(uv, spacing_of(uv, pitch_m), region)
+    if pitch_m is None:
+        found = cells_of(uv, spacing_of(uv), region)
+    else:
+        stated = np.full(uv.shape, pitch_m)
+        found = cells_of(uv, spacing_of_cells(stated), region, stated)
     assert found is not None
     return found
 
@@ -63,7 +67,7 @@ def test_a_single_reading_needs_a_pitch() -> None:
     assert cells_of(one, spacing_of(one)) is None
     assert cells(one, 0.3).area_m2[0] == pytest.approx(0.09)
     none = np.zeros((0, 2))
-    assert cells_of(none, spacing_of(none, 0.3)) is None
+    assert cells_of(none, spacing_of(none)) is None
 
 
 def test_readings_on_a_slanted_line() -> None:

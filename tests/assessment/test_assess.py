@@ -115,7 +115,9 @@ def test_a_single_reading() -> None:
     assert s.potential is not None
     assert (s.potential.p5_mv, s.potential.sd_mv) == (-420.0, None)
     assert "no neighbours" in s.gradient.why
-    with_pitch = assess("deck", readings([[1.0, 2.0]], [-420.0], [80.0]), pitch_m=0.5).summary
+    with_pitch = assess(
+        "deck", readings([[1.0, 2.0]], [-420.0], [80.0]), cell_m=np.array([[0.5, 0.5]])
+    ).summary
     assert with_pitch.area_m2 == pytest.approx(0.25)
     assert counts(with_pitch.verdicts)["active"] == 1
 

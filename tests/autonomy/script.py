@@ -9,9 +9,10 @@ import numpy as np
 
 from inspect_cli.autonomy.executive import Executive
 from inspect_cli.autonomy.modes import Behaviour
-from inspect_cli.interfaces import DepthImage, Posture
+from inspect_cli.interfaces import DepthLaw, Posture
 from inspect_cli.records import (
     Command,
+    DepthImage,
     Estimate,
     InvalidReason,
     Pose,
@@ -21,7 +22,7 @@ from inspect_cli.records import (
     Reference,
     SurfaceEstimate,
 )
-from inspect_cli.schema.plan import Leg, LegKind, Plan, PostureModel, Target
+from inspect_cli.schema.plan import Leg, LegKind, MarginModel, Plan, PostureModel, Target
 from inspect_cli.spatial.arrays import Matrix, Vector
 from inspect_cli.vehicles.fully_actuated import BEHAVIOUR
 
@@ -47,14 +48,12 @@ def target(index: int) -> Target:
         n_W=(-1.0, 0.0, 0.0),
         q_WT=(1.0, 0.0, 0.0, 0.0),
         sensor="half_cell",
-        press_m=PRESS_M,
+        law=DepthLaw(PRESS_M, "contact_ndt", 1.8),
         dwell_s=3.0,
         standoff_m=STANDOFF_M,
         standoff=posture(1.2),
         contact=posture(1.45),
-        expected_force_n=1.8,
-        thrust_margin_n=5.0,
-        tilt_margin_rad=None,
+        margins={"thrust": MarginModel(value=5.0, unit="N")},
         clearance_m=0.5,
     )
 

@@ -16,8 +16,8 @@ from script import (
     Script,
 )
 
-from inspect_cli.autonomy.timing import PAUSE_S
 from inspect_cli.records import InvalidReason, SurfaceEstimate
+from inspect_cli.schema.flight_times import PAUSE_S
 from inspect_cli.vehicles.fully_actuated.modes import (
     BEFORE_CONTACT_M,
     SAFE_HOVER_S,

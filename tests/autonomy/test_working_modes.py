@@ -14,7 +14,7 @@ from script import (
     two_point_plan,
 )
 
-from inspect_cli.autonomy.timing import PAUSE_S
+from inspect_cli.schema.flight_times import PAUSE_S
 from inspect_cli.schema.plan import Following, Leg, LegKind, Plan, Stroke, Target
 from inspect_cli.vehicles.fully_actuated.modes import BEFORE_CONTACT_M
 
@@ -34,7 +34,7 @@ def working_plan() -> Plan:
     stroke = Stroke(pieces_m=(((0.0, 0.0), (0.2, 0.0)),), speed_mps=0.1)
     following = Following(direction="y", distance_m=0.5, speed_mps=0.17)
     targets = (
-        made(POSE, "pose", dwell_s=HOLD_S, press_m=0.0, standoff_m=0.0),
+        made(POSE, "pose", dwell_s=HOLD_S, law=None, standoff_m=0.0),
         made(STROKE, "stroke", dwell_s=SETTLE_S, stroke=stroke),
         made(FOLLOWING, "following", dwell_s=FOLLOW_S, following=following, surface=None),
     )

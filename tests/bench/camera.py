@@ -14,7 +14,8 @@ import numpy as np
 from inspect_cli.scans.files import open3d
 from inspect_cli.schema.geometry import Displacement, MeshShape
 from inspect_cli.schema.loading import load_platform
-from inspect_cli.sensing.tof import ray_directions
+from inspect_cli.schema.vehicle import DepthCameraModel
+from inspect_cli.sensing.depth_camera import ray_directions
 from inspect_cli.spatial.primitives import PRIMITIVE
 from inspect_cli.truth.heights import mesh_relief
 from inspect_cli.truth.solids import Solids, cast
@@ -26,7 +27,8 @@ VAULT = MeshShape(file="missions/scans/vault.ply", normal=(0.0, 0.0, -1.0))
 
 def measure(root: Path) -> Iterator[Row]:
     """The rays of one image from 0.9 m under the crown of the built-in vault."""
-    camera = load_platform(root / "platforms" / "tilt_rotor_hexarotor.yaml").sensors.tof
+    platform = load_platform(root / "platforms" / "tilt_rotor_hexarotor.yaml")
+    camera = platform.sensor(DepthCameraModel)
     relief = mesh_relief(VAULT, Displacement(), root)
     solids = Solids(np.zeros(0, PRIMITIVE), relief.row, relief.nodes)
     rays, origin = ray_directions(camera), np.array([0.0, 0.0, 3.0])

@@ -19,6 +19,7 @@ from inspect_cli.records import CORE_RECORDS
 from inspect_cli.schema.loading import Loaded
 from inspect_cli.simulation.loop import Flight
 from inspect_cli.truth.geometry import true_structure
+from inspect_cli.vehicles.contacts import wrench_record
 from tests.bench.replay import Replay
 from tests.bench.rows import Row, Times
 
@@ -64,7 +65,8 @@ class Pair:
 
     def _flight(self) -> tuple[Flight, LogWriter]:
         lengths = self._vehicle.capabilities.lengths
-        log = LogWriter(self._file, CORE_RECORDS, lengths)
+        contacts = [wrench_record(contact.name) for contact in self._vehicle.contacts]
+        log = LogWriter(self._file, [*CORE_RECORDS, *contacts], lengths)
         loaded = self._loaded
         seed = loaded.mission.seeds[0]
         structure = true_structure(loaded.truth, self._plan.surfaces, loaded.root)

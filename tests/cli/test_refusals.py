@@ -93,8 +93,8 @@ def test_platform_with_negative_mass(refused: Callable[..., str]) -> None:
 
 
 def test_rate_that_is_negative(refused: Callable[..., str]) -> None:
-    said = refused(GIVEN, lambda text: text + "rates: {imu_hz: -250}\n")
-    assert "imu_hz" in said
+    said = refused(GIVEN, lambda text: text + "rates: {log_hz: -250}\n")
+    assert "log_hz" in said
     assert "tilt_rotor_hexarotor.yaml:" in said
 
 

@@ -11,10 +11,12 @@ import pytest
 
 from inspect_cli.cli import run
 from inspect_cli.commands.fly import fly
-from inspect_cli.commands.plan import plan
+from inspect_cli.commands.plan import plan, plan_loaded, vehicle_of
 from inspect_cli.commands.report import report
 from inspect_cli.commands.runs import LOCK_NAME
 from inspect_cli.errors import InfeasibleError, InputError, SchemaError
+from inspect_cli.schema.loading import load_mission
+from inspect_cli.schema.tasks import tasks_with
 
 MISSION = """\
 schema: 1
@@ -99,6 +101,26 @@ def test_an_unknown_metric_is_refused_before_the_flight(mission: Path) -> None:
     mission.write_text(MISSION + "acceptance: [{metric: contact.points_vald, min: 1}]\n")
     with pytest.raises(SchemaError, match=r"contact\.points_valid"):
         plan(mission)
+
+
+def test_a_task_that_the_vehicles_modes_cannot_do_is_refused(mission: Path) -> None:
+    loaded = load_mission(mission)
+    vehicle = vehicle_of(loaded)
+    vehicle.capabilities.tasks = tasks_with({"hold", "slide"})
+    with pytest.raises(SchemaError) as refusal:
+        plan_loaded(loaded, vehicle)
+    (problem,) = refusal.value.problems
+    assert problem.what == "tilt_rotor_hexarotor cannot do the task 'contact_grid'"
+    assert (problem.where.line, problem.where.path) == (8, "tasks[0].contact_grid")
+    assert problem.where.column is not None
+    # The platforms of the campaign are built anew, and those are as able as ever.
+    can, others = problem.hint.split("; ")
+    assert can == "it can do: hold"
+    assert others.startswith("platforms that can: ")
+    assert "tilt_rotor_hexarotor" in others
+    assert tasks_with({"approach", "press", "retreat"}) == {
+        "contact_grid", "contact_points", "coverage"
+    }  # fmt: skip
 
 
 def test_a_run_folder_has_one_writer(mission: Path, tmp_path: Path) -> None:

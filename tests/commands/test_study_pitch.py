@@ -264,9 +264,9 @@ def test_verdicts_are_on_the_standards_scale(mission: Path, electrode: str) -> N
     """
     platform = mission.parents[1] / "platforms" / "tilt_rotor_hexarotor.yaml"
     given = platform.read_text()
-    assert given.count("  half_cell:\n") == 1
+    assert given.count("    kind: half_cell\n") == 1
     platform.write_text(
-        given.replace("  half_cell:\n", f"  half_cell:\n    electrode: {electrode}\n")
+        given.replace("    kind: half_cell\n", f"    kind: half_cell\n    electrode: {electrode}\n")
     )
     rewritten(mission, "  - name: wall\n", "  - name: wall\n    temperature_c: 40.0\n")
     rewritten(mission, "potential_v: -0.12", "potential_v: -0.12\n        temperature_c: 40.0")

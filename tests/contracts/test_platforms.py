@@ -13,6 +13,7 @@ import pytest
 from inspect_cli.schema.json_schema import committed_file
 from inspect_cli.schema.loading import load_platform
 from inspect_cli.schema.strict_yaml import read_yaml
+from inspect_cli.schema.tasks.base import Pressing
 from inspect_cli.schema.vehicle import PLATFORM_KINDS, PlatformBase, TiltRotorPlatform
 from inspect_cli.vehicles import VEHICLES, build_vehicle
 
@@ -43,11 +44,14 @@ def test_it_flies_with_each_of_its_profiles(platform_file: Path) -> None:
     assert vehicle.platform is platform
     assert vehicle.capabilities.impedances == tuple(platform.control.profiles)
     for profile in platform.control.profiles:
-        # Pressing deeper presses harder, and not pressing not at all.
-        forces = [vehicle.capabilities.press_force(d, profile) for d in (0.0, 0.05, 0.10)]
-        assert forces[0] == 0.0
-        assert forces[2] == pytest.approx(2.0 * forces[1])
-        assert forces[1] > 0.0
+        # Pressing twice as deep presses twice as hard.
+        laws = [
+            vehicle.capabilities.contact_law(Pressing(press_m=depth_m), profile)
+            for depth_m in (0.05, 0.10)
+        ]
+        shallow, deep = (law.expected_force_n for law in laws)
+        assert deep == pytest.approx(2.0 * shallow)
+        assert shallow > 0.0
 
 
 @pytest.mark.parametrize("kind", sorted(PLATFORM_KINDS | VEHICLES))

@@ -24,7 +24,7 @@ from inspect_cli.vehicles.tilt_rotor.model import build_spec, tool_transform
 Pitched = Callable[[float], TiltRotorPlatform]
 Array = np.ndarray
 G = 9.81
-LENGTHS = {"n_rotors": 12, "n_joints": 6}
+LENGTHS = {"n_rotors": 12, "n_joints": 6, "n_servos": 6}
 ANGLES = pytest.mark.parametrize("pitch_deg", [90.0, 150.0])
 
 UNEVEN = ImpedanceProfile(frame="tool", mass=(5.0, 3.0, 0.25), inertia=(5.0, 2.0, 0.5))

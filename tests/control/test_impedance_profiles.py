@@ -17,7 +17,7 @@ from inspect_cli.schema.vehicle import ControlModel, ImpedanceProfile
 
 CONTROL_HZ = 250
 TICKS = round(BLEND_S * CONTROL_HZ)
-LENGTHS = {"n_rotors": 4, "n_joints": 4, "n_arm": 0}
+LENGTHS = {"n_rotors": 4, "n_servos": 4}
 BODY = RigidBody(4.75, np.diag([0.08, 0.09, 0.15]), np.zeros(3))
 SOFT = ImpedanceProfile(frame="tool", mass=(5.0, 5.0, 0.25), inertia=(5.0, 5.0, 5.0))
 STIFF = ImpedanceProfile(

@@ -32,7 +32,7 @@ class Bench:
             group_kappa_m(platform),
             platform.unit.max_thrust_n,
         )
-        self.command = Command.create({"n_rotors": 2 * self.n, "n_joints": self.n})
+        self.command = Command.create({"n_rotors": 2 * self.n, "n_servos": self.n})
         self.model = build_spec(platform).compile()
         self.data = mujoco.MjData(self.model)
         self.body = nominal_body(build_spec(platform))

@@ -14,12 +14,13 @@ from scipy.stats import chi2
 
 from inspect_cli.estimation.error_state import GATE, ErrorStateFilter
 from inspect_cli.records import Estimate, Imu, Pose
-from inspect_cli.schema.positioning import PoseModel
-from inspect_cli.schema.vehicle import ImuModel
+from inspect_cli.schema.vehicle import ImuModel, PoseTrackerModel
 
 Array = NDArray[np.float64]
 IMU_HZ, POSE_HZ = 250, 100
 IMU = ImuModel(
+    kind="imu",
+    rate_hz=250,
     accel_noise=2e-3,
     gyro_noise=2e-4,
     accel_bias_walk=3e-4,
@@ -27,8 +28,12 @@ IMU = ImuModel(
     accel_bias_initial_mps2=0.05,
     gyro_bias_initial_radps=0.005,
 )
-POSE = PoseModel(position_noise_m=0.001, attitude_noise_rad=0.003)
+POSE = PoseTrackerModel(
+    kind="pose_tracker", rate_hz=100, position_noise_m=0.001, attitude_noise_rad=0.003
+)
 QUIET_IMU = ImuModel(
+    kind="imu",
+    rate_hz=250,
     accel_noise=0.0,
     gyro_noise=0.0,
     accel_bias_walk=0.0,
@@ -36,7 +41,9 @@ QUIET_IMU = ImuModel(
     accel_bias_initial_mps2=0.0,
     gyro_bias_initial_radps=0.0,
 )
-QUIET_POSE = PoseModel(position_noise_m=0.0, attitude_noise_rad=0.0)
+QUIET_POSE = PoseTrackerModel(
+    kind="pose_tracker", rate_hz=100, position_noise_m=0.0, attitude_noise_rad=0.0
+)
 
 
 class Wiggle:
@@ -76,7 +83,7 @@ class Run:
     """One flight: the filter is fed tick by tick (500 per second, as the rates need)."""
 
     def __init__(
-        self, imu: ImuModel, pose: PoseModel, seconds: float, rng: np.random.Generator
+        self, imu: ImuModel, pose: PoseTrackerModel, seconds: float, rng: np.random.Generator
     ) -> None:
         self.ticks = int(seconds * 500) + 1
         t = np.arange(self.ticks) / 500.0

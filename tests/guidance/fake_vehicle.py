@@ -6,8 +6,8 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from inspect_cli.interfaces import Margins, Posture
-from inspect_cli.schema.plan import PostureModel, Target
+from inspect_cli.interfaces import TOOL, DepthLaw, FramePose, Margin, Posture, Shortfall
+from inspect_cli.schema.plan import MarginModel, PostureModel, Target
 from inspect_cli.spatial.rotations import matrix_to_quaternion, quaternion_to_matrix
 
 R_BT_AHEAD = np.array([[0.0, 0.0, 1.0], [0.0, 1.0, 0.0], [-1.0, 0.0, 0.0]])
@@ -26,31 +26,34 @@ class FakeVehicle:
     impedances: tuple[str, ...] = ("contact_ndt",)
     standing_height_m: float = 0.2
     reach: bool = True
+    frames: tuple[str, ...] = (TOOL,)
+    tasks: frozenset[str] = frozenset()
 
     @property
     def lengths(self):
         return {"n_rotors": 4, "n_joints": 0}
 
-    def tool_pose(self, posture):
+    def frame_pose(self, posture, frame):
         R_WB = quaternion_to_matrix(posture.q_WB)
         return posture.p_WB + R_WB @ self.p_BT, R_WB @ self.R_BT
 
-    def posture_for_tool(self, p_WT, R_WT, near):
+    def solve(self, goals, loads, near):
         if not self.reach:
-            return None
+            return Shortfall("it reaches nothing")
+        p_WT, R_WT = goals[TOOL].p, goals[TOOL].R
         R_WB = np.ascontiguousarray(R_WT @ self.R_BT.T)
-        return Posture(p_WT - R_WB @ self.p_BT, matrix_to_quaternion(R_WB), near.arm_angle)
+        return Posture(p_WT - R_WB @ self.p_BT, matrix_to_quaternion(R_WB), near.joint_angle)
 
     def collision_spheres(self, posture):
         return np.array([[*posture.p_WB, 0.4]])
 
-    def margins(self, posture, wrench_tool_W):
-        return Margins(1.0, np.inf)
+    def margins(self, posture, loads):
+        return {"thrust": Margin(1.0, "N")}
 
-    def press_force(self, press_m, impedance):
-        return 18.0 * press_m
+    def contact_law(self, pressing, profile):
+        return DepthLaw(pressing.press_m, profile, 18.0 * pressing.press_m)
 
-    def hover_power_w(self, posture):
+    def power_w(self, posture, loads):
         return 500.0
 
 
@@ -59,11 +62,11 @@ class FakeArm(FakeVehicle):
 
     @property
     def lengths(self):
-        return {"n_rotors": 4, "n_joints": 2, "n_arm": 2}
+        return {"n_rotors": 4, "n_joints": 2, "n_servos": 2, "n_arm": 2}
 
-    def tool_pose(self, posture):
+    def frame_pose(self, posture, frame):
         R_WB = quaternion_to_matrix(posture.q_WB)
-        p_BT = self.p_BT + np.array([0.1 * posture.arm_angle.sum(), 0.0, 0.0])
+        p_BT = self.p_BT + np.array([0.1 * posture.joint_angle.sum(), 0.0, 0.0])
         return posture.p_WB + R_WB @ p_BT, R_WB @ self.R_BT
 
 
@@ -72,7 +75,7 @@ def target_at(vehicle, p_WC, n_W, R_WT, standoff_m=0.25, press_m=0.1) -> Target:
     here = Posture(np.zeros(3), np.array([1.0, 0.0, 0.0, 0.0]))
 
     def model(depth):
-        posture = vehicle.posture_for_tool(p_WC - depth * n_W, R_WT, here)
+        posture = vehicle.solve({TOOL: FramePose(p_WC - depth * n_W, R_WT)}, {}, here)
         return PostureModel(p_WB=tuple(posture.p_WB.tolist()), q_WB=tuple(posture.q_WB.tolist()))
 
     return Target(
@@ -86,13 +89,11 @@ def target_at(vehicle, p_WC, n_W, R_WT, standoff_m=0.25, press_m=0.1) -> Target:
         n_W=tuple(n_W.tolist()),
         q_WT=tuple(matrix_to_quaternion(np.ascontiguousarray(R_WT)).tolist()),
         sensor="half_cell",
-        press_m=press_m,
+        law=DepthLaw(press_m, "contact_ndt", 1.8),
         dwell_s=3.0,
         standoff_m=standoff_m,
         standoff=model(-standoff_m),
         contact=model(0.0),
-        expected_force_n=1.8,
-        thrust_margin_n=5.0,
-        tilt_margin_rad=None,
+        margins={"thrust": MarginModel(value=5.0, unit="N")},
         clearance_m=0.2,
     )

@@ -14,9 +14,9 @@ import pytest
 from fake_vehicle import FakeVehicle
 
 from inspect_cli.guidance.pursuit import Pursuit
-from inspect_cli.interfaces import Posture
+from inspect_cli.interfaces import DepthLaw, Posture
 from inspect_cli.records import SurfaceEstimate
-from inspect_cli.schema.plan import Following, PostureModel, Target
+from inspect_cli.schema.plan import Following, MarginModel, PostureModel, Target
 from inspect_cli.spatial.primitives import cylinder, normal_at, plane, point_at, project
 from inspect_cli.spatial.rotations import matrix_to_quaternion
 
@@ -41,7 +41,7 @@ def column(radius_m):
 
 
 def following_target(vehicle, **way) -> Target:
-    p_WT, R_WT = vehicle.tool_pose(HERE)
+    p_WT, R_WT = vehicle.frame_pose(HERE, "tool")
     here = PostureModel(p_WB=tuple(HERE.p_WB.tolist()), q_WB=tuple(HERE.q_WB.tolist()))
     model = {"direction": "y", "distance_m": WAY_M, "speed_mps": SPEED, **way}
     return Target(
@@ -56,14 +56,12 @@ def following_target(vehicle, **way) -> Target:
         n_W=tuple((-R_WT[:, 2]).tolist()),
         q_WT=tuple(matrix_to_quaternion(np.ascontiguousarray(R_WT)).tolist()),
         sensor=None,
-        press_m=PRESS_M,
+        law=DepthLaw(PRESS_M, "contact_ndt", 1.8),
         dwell_s=2.0,
         standoff_m=STANDOFF_M,
         standoff=here,
         contact=here,
-        expected_force_n=1.8,
-        thrust_margin_n=5.0,
-        tilt_margin_rad=None,
+        margins={"thrust": MarginModel(value=5.0, unit="N")},
         clearance_m=0.2,
     )
 
@@ -105,7 +103,7 @@ class Slide:
 
     def _keep(self) -> None:
         reference = self.pursuit.reference
-        p_WT, R_WT = self.vehicle.tool_pose(Posture(reference.p_WB, reference.q_WB))
+        p_WT, R_WT = self.vehicle.frame_pose(Posture(reference.p_WB, reference.q_WB), "tool")
         u, v, height = project(self.prim, 0, p_WT)
         lag = np.arccos(min(1.0, -R_WT[:, 2] @ self.normal(u, v)))
         self.rows.append((self.t_s, u, v, height, lag))

@@ -7,14 +7,15 @@ import pytest
 
 from inspect_cli.guidance.local_surface import LocalSurface
 from inspect_cli.records import Estimate, State, SurfaceEstimate
-from inspect_cli.schema.vehicle import TofModel
-from inspect_cli.sensing.tof import TofCamera
+from inspect_cli.schema.vehicle import DepthCameraModel, MountModel
+from inspect_cli.sensing.depth_camera import DepthCamera
 from inspect_cli.spatial.primitives import cylinder, plane
 from inspect_cli.spatial.rotations import (
     matrix_to_quaternion,
     quaternion_to_matrix,
     roll_pitch_yaw_matrix,
 )
+from inspect_cli.truth.snapshot import Truth
 from inspect_cli.truth.solids import Solids
 
 P_BT = np.array([0.55, 0.0, 0.0])
@@ -23,9 +24,11 @@ P_BD = np.array([0.16, 0.0, 0.06])
 RADIUS = 0.1
 
 
-def model(noise_floor_m=0.0) -> TofModel:
-    return TofModel(
-        position_B_m=tuple(P_BD.tolist()),
+def model(noise_floor_m=0.0) -> DepthCameraModel:
+    return DepthCameraModel(
+        kind="depth_camera",
+        rate_hz=10,
+        mount=MountModel(frame="body", position_m=tuple(P_BD.tolist()), axes="tool"),
         columns=64,
         rows=48,
         field_of_view_deg=(62.0, 45.0),
@@ -55,8 +58,8 @@ def fit(points_D, estimate, out, noise_floor_m=0.004):
 
 
 def look(primitives, state, estimate, noise_floor_m=0.0, seed=1):
-    camera = TofCamera(model(noise_floor_m), Solids(primitives), np.random.default_rng(seed))
-    camera.sample(state)
+    camera = DepthCamera(model(noise_floor_m), Solids(primitives), np.random.default_rng(seed))
+    camera.sample(Truth(state))
     out = SurfaceEstimate.create()
     fit(camera.points_D, estimate, out, noise_floor_m)
     return out, camera.points_D

@@ -12,10 +12,11 @@ from inspect_cli.guidance.orientation import contact_orientation
 from inspect_cli.guidance.pursuit import Pursuit
 from inspect_cli.interfaces import Posture
 from inspect_cli.records import State, SurfaceEstimate
-from inspect_cli.schema.vehicle import TofModel
-from inspect_cli.sensing.tof import TofCamera
+from inspect_cli.schema.vehicle import DepthCameraModel, MountModel
+from inspect_cli.sensing.depth_camera import DepthCamera
 from inspect_cli.spatial.primitives import plane
 from inspect_cli.spatial.rotations import matrix_to_quaternion, rotate
+from inspect_cli.truth.snapshot import Truth
 from inspect_cli.truth.solids import Solids
 
 MOTION = ("p_WB", "q_WB", "v_WB_W", "w_WB_B", "a_WB_W", "alpha_WB_B", "p_WT")
@@ -47,7 +48,7 @@ def written(pursuit, t_s):
 
 
 def tool(vehicle, pursuit):
-    return vehicle.tool_pose(Posture(pursuit.reference.p_WB, pursuit.reference.q_WB))
+    return vehicle.frame_pose(Posture(pursuit.reference.p_WB, pursuit.reference.q_WB), "tool")
 
 
 def give_random_order(rng, pursuit, vehicle, target, t_s):
@@ -186,8 +187,10 @@ def test_camera_and_pursuit_together_find_a_wall_that_is_not_where_it_was_planne
     pursuit = Pursuit(vehicle, START)
     n_true = turned(N_W, 0.0, 3.0, 4.0)
     p_true = P_WC + np.array([0.05, 0.0, 0.0])
-    model = TofModel(
-        position_B_m=(0.16, 0.0, 0.06),
+    model = DepthCameraModel(
+        kind="depth_camera",
+        rate_hz=10,
+        mount=MountModel(frame="body", position_m=(0.16, 0.0, 0.06), axes="tool"),
         columns=64,
         rows=48,
         field_of_view_deg=(62.0, 45.0),
@@ -196,7 +199,7 @@ def test_camera_and_pursuit_together_find_a_wall_that_is_not_where_it_was_planne
         noise_floor_m=0.004,
         neighbourhood_m=0.1,
     )
-    camera = TofCamera(model, Solids(plane(p_true, n_true, [4, 4])), np.random.default_rng(2))
+    camera = DepthCamera(model, Solids(plane(p_true, n_true, [4, 4])), np.random.default_rng(2))
     local = LocalSurface(model)
     state = State.create(vehicle.lengths)
     surface = SurfaceEstimate.create()
@@ -208,7 +211,7 @@ def test_camera_and_pursuit_together_find_a_wall_that_is_not_where_it_was_planne
         state.p_WB[:] = pursuit.reference.p_WB
         state.q_WB[:] = pursuit.reference.q_WB
         state.q_WT[:] = matrix_to_quaternion(R_WT)
-        camera.sample(state)
+        camera.sample(Truth(state))
         p_WD = state.p_WB + rotate(state.q_WB, np.array(model.position_B_m))
         local.update(camera.points_D, p_WD, p_WT, R_WT, surface)
         pursuit.observe(t, surface)
@@ -331,4 +334,4 @@ def test_an_arm_is_interpolated_and_carries_the_tip():
     assert np.allclose(pursuit.reference.p_WT, [0.55 + 0.075, 0.0, 1.02])
     pursuit.write(end + 1.0)
     assert pursuit.arrived(end + 1.0)
-    assert np.allclose(pursuit.reference.arm_angle, goal.arm_angle)
+    assert np.allclose(pursuit.reference.arm_angle, goal.joint_angle)

@@ -12,7 +12,7 @@ from inspect_cli.guidance.aim import Aim
 from inspect_cli.guidance.orientation import contact_orientation
 from inspect_cli.guidance.pursuit import Pursuit
 from inspect_cli.guidance.stroke import StrokePath, along, corrected
-from inspect_cli.interfaces import Posture
+from inspect_cli.interfaces import FramePose, Posture
 from inspect_cli.records import SurfaceEstimate
 from inspect_cli.schema.plan import Stroke
 from inspect_cli.spatial.primitives import cylinder, normal_at, plane, point_at, project
@@ -32,7 +32,7 @@ def posture_on(vehicle, prim):
     def at(u, v):
         n = normal_at(prim, 0, u, v)
         p = point_at(prim, 0, u, v) - PRESS_M * n
-        return vehicle.posture_for_tool(p, contact_orientation(n, Y_W), HERE)
+        return vehicle.solve({"tool": FramePose(p, contact_orientation(n, Y_W))}, {}, HERE)
 
     return at
 
@@ -115,7 +115,7 @@ def test_the_tool_stays_on_the_line_and_square_to_the_surface(prim):
     path = StrokePath(CIRCLE, SPEED, ACCELERATION)
     times, found = motions(along(0.0, path, posture_on(vehicle, prim)), 5)
     for t, m in zip(times, found, strict=True):
-        p_WT, R_WT = vehicle.tool_pose(Posture(m.p_WB, m.q_WB))
+        p_WT, R_WT = vehicle.frame_pose(Posture(m.p_WB, m.q_WB), "tool")
         u, v, w = project(prim, 0, p_WT)
         assert w == pytest.approx(-PRESS_M, abs=1e-4)
         np.testing.assert_allclose([u, v], path.at(t), atol=2e-4)
@@ -170,12 +170,12 @@ def test_a_stroke_far_round_a_column_does_not_turn_the_tool_over():
     while not pursuit.arrived(t):
         pursuit.write(t)
         q = pursuit.reference.q_WB.copy()
-        _, R_WT = vehicle.tool_pose(Posture(pursuit.reference.p_WB, q))
+        _, R_WT = vehicle.frame_pose(Posture(pursuit.reference.p_WB, q), "tool")
         assert abs(R_WT[2, 1]) < 1e-6
         # 0.3 m/s on 1 m: 0.3 rad/s, so no step of 20 ms turns by more than that.
         assert last is None or abs(q @ last) >= np.cos(0.5 * 0.02 * 0.36)
         last, t = q, t + 0.02
-    p_WT, _ = vehicle.tool_pose(Posture(pursuit.reference.p_WB, pursuit.reference.q_WB))
+    p_WT, _ = vehicle.frame_pose(Posture(pursuit.reference.p_WB, pursuit.reference.q_WB), "tool")
     np.testing.assert_allclose(project(COLUMN, 0, p_WT)[0], turn, atol=0.01)
 
 

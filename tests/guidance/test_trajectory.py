@@ -76,12 +76,12 @@ def test_stretch_joins_both_ends_and_its_rates_are_derivatives(seed):
     rng = np.random.default_rng(seed)
     start, goal = moving(rng), posture(rng)
     phi = (rotation(start.q_WB).inv() * rotation(goal.q_WB)).as_rotvec()
-    stretch = Stretch.to_rest(2.0, start, goal.p_WB, phi, goal.arm_angle, 5.0, 5.0)
+    stretch = Stretch.to_rest(2.0, start, goal.p_WB, phi, goal.joint_angle, 5.0, 5.0)
     end = stretch.motion(7.0)
     assert same(stretch.motion(2.0), start)
     assert np.allclose(end.p_WB, goal.p_WB)
     assert (rotation(end.q_WB).inv() * rotation(goal.q_WB)).magnitude() < 1e-7
-    assert np.allclose(end.arm, [goal.arm_angle, [0.0] * 2, [0.0] * 2])
+    assert np.allclose(end.arm, [goal.joint_angle, [0.0] * 2, [0.0] * 2])
     for name in ("v_WB_W", "a_WB_W", "w_WB_B", "alpha_WB_B"):
         assert np.allclose(getattr(end, name), 0.0, atol=1e-12)
     h = 1e-4
@@ -151,7 +151,7 @@ def test_waypoints_are_passed_at_rest_in_their_order():
     for goal, stretch in zip(goals, stretches, strict=True):
         now = trajectory.motion(stretch.end_s)
         assert np.allclose(now.p_WB, goal.p_WB)
-        assert np.allclose(now.arm[0], goal.arm_angle)
+        assert np.allclose(now.arm[0], goal.joint_angle)
         assert np.allclose([now.v_WB_W, now.w_WB_B], 0.0, atol=1e-9)
     assert np.allclose(trajectory.motion(trajectory.end_s + 9.0).p_WB, goals[-1].p_WB)
 

@@ -9,6 +9,7 @@ from typing import Any
 
 import numpy as np
 
+from inspect_cli.interfaces import DepthLaw
 from inspect_cli.log.writer import LogWriter
 from inspect_cli.records import (
     Command,
@@ -24,11 +25,11 @@ from inspect_cli.records import (
 from inspect_cli.schema.geometry import CylinderShape, PlaneShape
 from inspect_cli.schema.loading import load_platform
 from inspect_cli.schema.mission import Mission
-from inspect_cli.schema.plan import Leg, Plan, PlannedSurface, PostureModel, Target
+from inspect_cli.schema.plan import Leg, MarginModel, Plan, PlannedSurface, PostureModel, Target
 from inspect_cli.schema.truth import TruthModel
 from inspect_cli.vehicles.fully_actuated import BEHAVIOUR
 
-LENGTHS = {"n_rotors": 12, "n_joints": 6, "n_arm": 0}
+LENGTHS = {"n_rotors": 12, "n_joints": 6, "n_servos": 6, "n_arm": 0}
 RECORDS: tuple[type[Record], ...] = (
     State,
     TrueContact,
@@ -128,14 +129,12 @@ def plan() -> Plan:
         n_W=(-1.0, 0.0, 0.0),
         q_WT=(0.5, 0.5, 0.5, 0.5),
         sensor="half_cell",
-        press_m=0.1,
+        law=DepthLaw(0.1, "contact_ndt", 1.8),
         dwell_s=3.0,
         standoff_m=0.25,
         standoff=there,
         contact=there,
-        expected_force_n=1.8,
-        thrust_margin_n=3.0,
-        tilt_margin_rad=None,
+        margins={"thrust": MarginModel(value=3.0, unit="N")},
         clearance_m=0.2,
     )
     return Plan(

@@ -31,7 +31,7 @@ from inspect_cli.schema.result import Status
 from inspect_cli.schema.vehicle import TiltRotorPlatform
 from inspect_cli.spatial.arrays import Structured, Vector
 
-LENGTHS = {"n_rotors": 12, "n_joints": 6}
+LENGTHS = {"n_rotors": 12, "n_joints": 6, "n_servos": 6}
 WALL_X_M = 2.0
 HEIGHT_M = 1.5
 POINTS = 9
@@ -46,6 +46,7 @@ ESTIMATE_ROLL_ERROR_RAD = 0.005
 WRENCH_ERROR = np.array([0.3, 0.4, 0.0, 0.0, 0.03, 0.04])
 NORMAL_ERROR_DEG = 2.0
 FORCE_N = 1.8
+LAW = {"kind": "depth", "depth_m": 0.1, "profile": "contact_ndt", "expected_force_n": FORCE_N}
 READING_ERROR_V = 0.002
 RESISTANCE_FACTOR = 1.01
 
@@ -265,14 +266,13 @@ def _plan() -> Plan:
             "n_W": [-1, 0, 0],
             "q_WT": [np.sqrt(0.5), 0, np.sqrt(0.5), 0],
             "sensor": "half_cell",
-            "press_m": 0.1,
+            "cell_m": [0.05, 0.05],
+            "law": LAW,
             "dwell_s": 3.0,
             "standoff_m": 0.25,
             "standoff": _posture(point - [0.25, 0, 0]),
             "contact": _posture(point),
-            "expected_force_n": 1.8,
-            "thrust_margin_n": 5.0,
-            "tilt_margin_rad": None,
+            "margins": {"thrust": {"value": 5.0, "unit": "N"}},
             "clearance_m": 0.1,
         }
         targets.append(target)
@@ -296,6 +296,8 @@ def _plan() -> Plan:
 def _platform() -> TiltRotorPlatform:
     three = [1.0, 1.0, 1.0]
     half_cell = {
+        "kind": "half_cell",
+        "rate_hz": 50,
         "potential_noise_v": 0.001,
         "resistance_noise": 0.01,
         "force_noise_n": 0.05,
@@ -304,10 +306,19 @@ def _platform() -> TiltRotorPlatform:
         "dry_offset_v": 0.05,
         "cable_m": 12,
     }
-    imu = dict.fromkeys(("accel_noise", "gyro_noise", "accel_bias_walk", "gyro_bias_walk"), 0.0)
-    imu |= {"accel_bias_initial_mps2": 0.0, "gyro_bias_initial_radps": 0.0}
+    imu: dict[str, Any] = dict.fromkeys(
+        ("accel_noise", "gyro_noise", "accel_bias_walk", "gyro_bias_walk"), 0.0
+    )
+    imu |= {
+        "kind": "imu",
+        "rate_hz": 250,
+        "accel_bias_initial_mps2": 0.0,
+        "gyro_bias_initial_radps": 0.0,
+    }
     tof = {
-        "position_B_m": [0.16, 0, 0.06],
+        "kind": "depth_camera",
+        "rate_hz": 10,
+        "mount": {"frame": "body", "position_m": [0.16, 0, 0.06], "axes": "tool"},
         "columns": 64,
         "rows": 48,
         "field_of_view_deg": [62, 45],
@@ -335,9 +346,14 @@ def _platform() -> TiltRotorPlatform:
         "battery": {"energy_wh": 117, "avionics_w": 25, "figure_of_merit": 0.55},
         "sensors": {
             "imu": imu,
-            "pose": {"position_noise_m": 0.001, "attitude_noise_rad": 0.002},
+            "pose": {
+                "kind": "pose_tracker",
+                "rate_hz": 100,
+                "position_noise_m": 0.001,
+                "attitude_noise_rad": 0.002,
+            },
             "tof": tof,
-            "half_cell": half_cell,
+            "probe": half_cell,
         },
         "control": control | {"profiles": {"contact_ndt": profile}},
         "core": {

@@ -11,15 +11,16 @@ import numpy as np
 import pytest
 from synthetic import PRESS_S, READING_ERROR_V, SyntheticFlight, nine_points, specimen
 
-from inspect_cli.metrics.assessed import assess_points, assessor, pitch_on, with_uncertainty
+from inspect_cli.metrics.assessed import assess_points, assessor, with_uncertainty
 from inspect_cli.metrics.catalogue_assessment import FINDINGS
 from inspect_cli.metrics.evaluate import evaluate
+from inspect_cli.metrics.planned_cells import planned_cells
 from inspect_cli.metrics.survey import joined_result
 from inspect_cli.records import Reading
 from inspect_cli.schema.base import Strict
 from inspect_cli.schema.mission import Mission
 from inspect_cli.schema.result import PointResult, Result
-from inspect_cli.schema.tasks import ContactGrid, ContactPoints, Task
+from inspect_cli.schema.vehicle import HalfCellModel
 
 Model = TypeVar("Model", bound=Strict)
 READ_V = np.array([specimen(k)[0] + READING_ERROR_V * (-1) ** k for k in range(9)])
@@ -30,9 +31,13 @@ MODEST_MV = 5e-4
 
 
 def changed(model: Model, path: str, value: object) -> Model:
-    """A copy with another value at a path such as ``sensors.half_cell.electrode``."""
+    """A copy with another value at a path such as ``sensors.probe.electrode``."""
     name, _, rest = path.partition(".")
-    if rest:
+    if name == "sensors":
+        sensor, _, rest = rest.partition(".")
+        sensors = model.sensors
+        value = sensors | {sensor: changed(sensors[sensor], rest, value)}
+    elif rest:
         value = changed(getattr(model, name), rest, value)
     return model.model_copy(update={name: value})
 
@@ -118,7 +123,7 @@ def test_another_electrode_comes_back_to_the_scale_of_the_standard(
     if temperature_c is not None:
         at_temperature(flight, temperature_c)
     warm_v = 0.9e-3 * ((temperature_c or 22.2) - 22.2)
-    flight.platform = changed(flight.platform, "sensors.half_cell.electrode", "SCE")
+    flight.platform = changed(flight.platform, "sensors.probe.electrode", "SCE")
     flight.rows(Reading)["potential"] += 0.075 + warm_v
     result = evaluate(flight.log())
     evaluated_mv = 1e3 * (READ_V + warm_v)
@@ -146,7 +151,7 @@ def test_a_survey_is_assessed_anew_over_all_points() -> None:
     flight = nine_points()
     flight.rows(Reading)["potential"][:] = [-0.1, -0.1, -0.4, *[-0.1] * 6]
     apart = flown_apart(flight)
-    assess_all = assessor(flight.mission, flight.platform)
+    assess_all = assessor(flight.mission, flight.platform, flight.plan.targets)
     alone = [len(assess_all(result.points)[0].steps.pairs) for result in apart]
     assert alone == [0, 1]
     joined = joined_result(apart, [], [], 1, None, assess_all)
@@ -164,7 +169,12 @@ def test_points_that_nobody_came_to_are_unread_area() -> None:
     targets = flight.plan.targets
     first = flown_apart(flight)[:1]
     joined = joined_result(
-        first, targets[2:], [], 1, None, assessor(flight.mission, flight.platform)
+        first,
+        targets[2:],
+        [],
+        1,
+        None,
+        assessor(flight.mission, flight.platform, flight.plan.targets),
     )
     (wall,) = joined.assessment
     assert (wall.points, wall.valid, wall.invalid) == (9, 2, 7)
@@ -179,7 +189,12 @@ def test_a_place_that_was_read_in_two_flights_is_one_point() -> None:
     failed = evaluate(flight.log())
     read = evaluate(nine_points().log())
     joined = joined_result(
-        [failed, read], [], [], 1, None, assessor(flight.mission, flight.platform)
+        [failed, read],
+        [],
+        [],
+        1,
+        None,
+        assessor(flight.mission, flight.platform, flight.plan.targets),
     )
     (wall,) = joined.assessment
     assert (wall.readings, wall.points, wall.valid) == (18, 9, 9)
@@ -211,8 +226,8 @@ def on_surfaces(names: Sequence[str]) -> tuple[tuple[PointResult, ...], Mission]
 
 def test_each_surface_is_assessed_by_itself() -> None:
     points, mission = on_surfaces(["b", "b", "a", "a", "a", "", "b", "b", "a"])
-    probe = nine_points().platform.sensors.half_cell
-    assessed = assess_points(points, mission, probe)
+    probe = nine_points().platform.sensor(HalfCellModel)
+    assessed = assess_points(points, mission, probe, planned_cells(nine_points().plan.targets))
     assert [one.summary.surface for one in assessed] == ["b", "a"]
     assert [one.summary.valid for one in assessed] == [4, 4]
     assert [one.summary.basis.temperature_c for one in assessed] == [35.0, None]
@@ -228,24 +243,6 @@ def test_each_surface_is_assessed_by_itself() -> None:
     assert warm is not None
     assert cool is not None
     assert cool**2 - warm**2 == pytest.approx(0.9**2 * (5.5**2 - 1.0) / 3.0, abs=1e-3)
-
-
-def test_the_pitch_is_the_missions_where_nothing_but_grids_is_read() -> None:
-    flight = nine_points()
-    (task,) = flight.mission.tasks
-    points = Task(contact_points=ContactPoints(on="wall", at_m=((2.0, 0.0, 1.0),)))
-    wider = Task(contact_grid=ContactGrid(on="wall", rows=1, columns=2, pitch_m=0.2))
-
-    def pitch_of(*tasks: Task) -> float | None:
-        return pitch_on(flight.mission.model_copy(update={"tasks": tasks}), "wall")
-
-    assert pitch_of(task) == 0.05
-    assert pitch_of(task, task) == 0.05
-    assert pitch_of(task, wider) is None
-    assert pitch_of(task, points) is None
-    silent = points.model_copy(update={"sensor": "none"})
-    assert pitch_of(task, silent) == 0.05
-    assert pitch_of() is None
 
 
 def test_without_readings_there_is_nothing_to_assess() -> None:
@@ -272,7 +269,7 @@ def test_the_library_is_not_loaded_before_there_is_something_to_assess() -> None
         "import sys\n"
         "import inspect_cli.commands.fly\n"
         "from inspect_cli.metrics.assessed import assess_points\n"
-        "assert assess_points((), None, None) == ()\n"
+        "assert assess_points((), None, None, {}) == ()\n"
         "loaded = [n for n in sys.modules if n.startswith(('shapely', 'inspect_cli.assessment'))]\n"
         "print(*sorted(loaded))\n"
     )
@@ -287,6 +284,6 @@ def test_the_library_is_not_loaded_before_there_is_something_to_assess() -> None
 
 def test_the_flight_presses_long_enough_for_its_rule() -> None:
     """What the expected uncertainties take for granted: a contact of more than stable_s."""
-    probe = nine_points().platform.sensors.half_cell
+    probe = nine_points().platform.sensor(HalfCellModel)
     assert (probe.stable_v, probe.stable_s, probe.wetting_s) == (0.005, 1.0, 0.4)
     assert probe.stable_s < PRESS_S

@@ -66,7 +66,7 @@ def test_both_power_models_agree_in_level_hover(root) -> None:
     thrust = np.full((1, 12), weight_n / 12)
     battery = loaded.platform.battery
     flown_w = electrical_power_w(thrust, loaded.platform.rotor_drives(), battery.avionics_w)[0]
-    planned_w = capabilities.hover_power_w(at_origin(np.empty(0)))
+    planned_w = capabilities.power_w(at_origin(np.empty(0)), {})
     assert flown_w == pytest.approx(planned_w, rel=0.002)
 
 

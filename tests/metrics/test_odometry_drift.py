@@ -9,10 +9,13 @@ import numpy as np
 
 from inspect_cli.metrics import odometry_drift
 from inspect_cli.records import State
-from inspect_cli.schema.positioning import OdometryModel
+from inspect_cli.schema.vehicle import OdometryModel
 from inspect_cli.sensing.odometry import OdometrySensor
+from inspect_cli.truth.snapshot import Truth
 
 MODEL = OdometryModel(
+    kind="odometry",
+    rate_hz=30,
     position_noise_m=0.001,
     attitude_noise_rad=0.002,
     position_walk=0.004,
@@ -46,7 +49,7 @@ def test_the_expected_rmse_is_that_of_many_runs() -> None:
         errors = []
         for row in rows[::10]:
             state.array[0] = row
-            sensor.sample(state)
+            sensor.sample(Truth(state))
             q, m = row["q_WB"], sensor.measurement.q_WB
             yaw = 2.0 * (np.arctan2(m[3], m[0]) - np.arctan2(q[3], q[0]))
             errors.append([*(sensor.measurement.p_WB - row["p_WB"]), yaw])
@@ -54,7 +57,7 @@ def test_the_expected_rmse_is_that_of_many_runs() -> None:
     flight: Any = SimpleNamespace(
         state=rows,
         airborne=np.ones(len(rows), bool),
-        platform=SimpleNamespace(sensors=SimpleNamespace(odometry=MODEL)),
+        platform=SimpleNamespace(find=lambda model: MODEL),
         log=SimpleNamespace(
             mission=lambda: SimpleNamespace(estimation="onboard"), truth=lambda: None
         ),

@@ -51,10 +51,8 @@ def test_the_misalignment_of_the_tracker_counts_against_its_frame_alone(
     flight: SyntheticFlight,
 ) -> None:
     sensors = flight.platform.sensors
-    pose = sensors.pose.model_copy(update={"body_misalignment_rad": MISALIGNMENT})
-    flight.platform = flight.platform.model_copy(
-        update={"sensors": sensors.model_copy(update={"pose": pose})}
-    )
+    pose = sensors["pose"].model_copy(update={"body_misalignment_rad": MISALIGNMENT})
+    flight.platform = flight.platform.model_copy(update={"sensors": sensors | {"pose": pose}})
     roll = Rotation.from_rotvec([0.005, 0.0, 0.0])
     off = (Rotation.from_rotvec(MISALIGNMENT).inv() * roll).as_rotvec()
     for axis, name in enumerate(("roll", "pitch", "yaw")):

@@ -4,43 +4,39 @@ from __future__ import annotations
 
 import dataclasses
 import json
+from collections.abc import Sequence
 
 import numpy as np
 import pytest
+from conftest import Pitched
 from rasters import disc, grid, judged_truly, point, raster_of
 from synthetic import SyntheticFlight, nine_points
 
 from inspect_cli.errors import LogError
 from inspect_cli.log.names import SPECIMEN
 from inspect_cli.log.rasters import encoded
+from inspect_cli.metrics.assessed import assess_points
 from inspect_cli.metrics.catalogue_scoring import SCORES, metrics_of
-from inspect_cli.metrics.cells import cells_around, in_squares, nearest_to
+from inspect_cli.metrics.cells import cells_around, in_squares, nearest_to, weighed
 from inspect_cli.metrics.evaluate import evaluate
 from inspect_cli.metrics.flight import NotMeasured
+from inspect_cli.metrics.planned_cells import PlannedCells, planned_cells
 from inspect_cli.metrics.survey import joined_result, scorer
 from inspect_cli.metrics.truth_scoring import Judged, score, score_surface
+from inspect_cli.planning.planner import make_plan
 from inspect_cli.schema.mission import Mission
+from inspect_cli.schema.plan import PlannedSurface
+from inspect_cli.schema.result import PointResult
 from inspect_cli.schema.scoring import UNREAD, Scoring
-from inspect_cli.schema.tasks import ContactGrid, ContactPoints, Task
+from inspect_cli.schema.vehicle import HalfCellModel
+from inspect_cli.vehicles.tilt_rotor import TiltRotor
 
 STEP_M = 0.005
 
 
-def mission(*tasks: Task) -> Mission:
-    """A mission of these tasks, on surfaces that are named."""
-    names = dict.fromkeys(task.on for task in tasks)
-    wall = {"kind": "plane", "center_m": [2, 0, 1], "normal": [-1, 0, 0], "size_m": [2, 1]}
-    base = {
-        "name": "scored",
-        "platform": "tilt_rotor_hexarotor",
-        "structure": [{"name": name, "surface": {"shape": wall}} for name in names],
-        "tasks": [task.model_dump() for task in tasks],
-    }
-    return Mission.model_validate_json(json.dumps(base))
-
-
-def gridded(columns: int, rows: int, pitch_m: float, on: str = "wall") -> Task:
-    return Task(contact_grid=ContactGrid(on=on, rows=rows, columns=columns, pitch_m=pitch_m))
+def square(points: Sequence[PointResult], edge_m: float | None) -> PlannedCells:
+    """A plan's cells that are squares."""
+    return {point.label: edge_m and (edge_m, edge_m) for point in points}
 
 
 @pytest.mark.parametrize("pitch_m", [0.1, 0.2, 0.25])
@@ -120,26 +116,24 @@ def test_where_the_specimen_knows_nothing_nothing_is_scored() -> None:
     assert surface.combined.region_m2 == pytest.approx(1.0)
     assert sum(row.active_points + row.sound_points for row in surface.combined.rows) == 16
     raster.potential_v[:] = np.nan
+    points = [point(0, (0.0, 0.0), "none")]
     with pytest.raises(NotMeasured, match="where points were planned"):
-        score([point(0, (0.0, 0.0), "none")], [raster], mission(gridded(1, 1, 0.25)))
+        score(points, [raster], square(points, 0.25))
 
 
 def test_a_single_reading() -> None:
     raster = raster_of(disc(0.3, 0.1, 0.1))
     points = [point(0, (0.3, 0.1), "active")]
-    scored = score(points, [raster], mission(gridded(1, 1, 0.25)))
+    scored = score(points, [raster], square(points, 0.25))
     combined = scored.confusion()
     assert combined.region_m2 == pytest.approx(0.0625)
     assert combined.active_m2 == pytest.approx(np.pi * 0.01, rel=0.01)
     assert combined.missed_m2 == 0.0
     assert combined.false_m2 == pytest.approx(0.0625 - np.pi * 0.01, rel=0.01)
     assert (scored.sites_found, scored.sites_total) == (1, 1)
-    lone = Task(contact_points=ContactPoints(on="wall", at_m=((2.0, 0.0, 1.0),)))
-    with pytest.raises(NotMeasured, match="what area it stands for"):
-        score(points, [raster], mission(lone))
-    # Two points say how far apart points are.
-    points.append(point(1, (0.5, 0.1), "none"))
-    assert score(points, [raster], mission(lone)).confusion().region_m2 == pytest.approx(0.08)
+    for unknown in (square(points, None), {}):
+        with pytest.raises(NotMeasured, match="what area it stands for"):
+            score(points, [raster], unknown)
 
 
 def test_two_surfaces_are_scored_apart_and_summed() -> None:
@@ -148,8 +142,7 @@ def test_two_surfaces_are_scored_apart_and_summed() -> None:
     places = [(float(u), float(v)) for u, v in grid(4, 2, 0.25)]
     points = [point(k, uv, "none", on) for on in ("left", "right") for k, uv in enumerate(places)]
     points.append(point(99, (0.0, 0.0), "active", "floor"))
-    tasks = [gridded(4, 2, 0.25, on) for on in ("left", "right", "floor")]
-    scored = score(points, rasters, mission(*tasks))
+    scored = score(points, rasters, square(points, 0.25))
     assert [one.surface for one in scored.surfaces] == ["left", "right"]
     assert scored.confusion().region_m2 == pytest.approx(1.0)
     assert scored.confusion().missed_m2 == pytest.approx(np.pi * (0.04 + 0.01), rel=0.01)
@@ -214,17 +207,63 @@ def test_too_resistive_is_what_the_rule_cannot_call_active() -> None:
         assert surface.combined.region_m2 == pytest.approx(2.0)
 
 
-def test_squares_reach_half_a_pitch_and_the_smallest_pitch_counts() -> None:
+def test_squares_reach_half_a_pitch() -> None:
     raster = raster_of(disc(0.0, 0.0, 0.1))
     alone = np.array([[0.0, 0.0]])
     places = np.array([[0.1, 0.0], [0.101, 0.0], [-0.1, 0.1], [0.0, -0.101]])
     assert in_squares(places, alone, 0.2, raster).tolist() == [True, False, True, False]
     # Two points 0.15 m apart, each with a square of 0.2 m: together 0.35 m by 0.2 m, not more.
     cells = cells_around(np.array([[0.0, 0.0], [0.15, 0.0]]), 0.2, raster)
-    assert len(cells.owner) * cells.area_m2 == pytest.approx(0.07, rel=0.02)
-    points = [point(0, (0.0, 0.0), "active")]
-    tasks = [gridded(1, 1, 0.25), gridded(1, 1, 0.1)]
-    assert score(points, [raster], mission(*tasks)).confusion().region_m2 == pytest.approx(0.01)
+    assert cells.area_m2.sum() == pytest.approx(0.07, rel=0.02)
+
+
+def test_points_of_two_pitches_stand_for_their_own_cells() -> None:
+    """A square of 0.05 m in the middle of one of 0.25 m shares it: its point is nearer up to half
+    way, so that both together are the large one. An oblong cell keeps its two widths."""
+    raster = raster_of(disc(0.0, 0.0, 0.1))
+    uv = np.array([[0.0, 0.0], [0.0625, 0.0], [0.5, 0.0]])
+    widths = np.array([[0.25, 0.25], [0.05, 0.05], [0.1, 0.2]])
+    cells = cells_around(uv, widths, raster)
+    areas = weighed(cells.owner, cells.area_m2, 3)
+    # The bisector lies at u = 0.03125, the small square begins at 0.0375: it keeps all of it.
+    assert areas[1] == pytest.approx(0.05**2, rel=1e-9)
+    assert areas[0] == pytest.approx(0.25**2 - 0.05**2, rel=0.01)
+    assert areas[2] == pytest.approx(0.1 * 0.2, rel=1e-9)
+    # Points that crowd around a coarse one leave it the rest of its square.
+    fine = grid(9, 9, 0.02)
+    crowd = np.vstack([fine, [[0.0, 0.0101]]])
+    widths = np.vstack([np.full((81, 2), 0.02), [[0.5, 0.5]]])
+    cells = cells_around(crowd, widths, raster)
+    areas = weighed(cells.owner, cells.area_m2, 82)
+    assert areas.sum() == pytest.approx(0.25, rel=0.01)
+    assert areas[-1] == pytest.approx(0.25 - 0.18**2, abs=0.18 * 2 * 0.5 / 60)
+
+
+def test_a_coarse_grid_with_readings_beside_a_fine_one_without(pitched: Pitched) -> None:
+    """Six points at 0.25 m stand for 0.375 m², and what is scored is what is assessed."""
+    shape = {"kind": "plane", "center_m": [2, 0, 1.5], "normal": [-1, 0, 0], "size_m": [2, 1]}
+    coarse = {"on": "wall", "rows": 2, "columns": 3, "pitch_m": 0.25}
+    fine = {"on": "wall", "rows": 5, "columns": 5, "pitch_m": 0.05}
+    asked = {
+        "name": "two-grids",
+        "platform": "tilt_rotor_hexarotor",
+        "structure": [{"name": "wall", "surface": {"shape": shape}}],
+        "tasks": [{"contact_grid": coarse}, {"contact_grid": fine, "sensor": "none"}],
+    }
+    mission = Mission.model_validate_json(json.dumps(asked))
+    surface = PlannedSurface.model_validate_json(
+        json.dumps({"name": "wall", "shape": shape, "source": "given"})
+    )
+    capabilities = TiltRotor(pitched(90.0)).capabilities
+    planned = make_plan(mission, "tilt_rotor_hexarotor", capabilities, (surface,), 20.0)
+    read = [target for target in planned.targets if target.sensor]
+    points = [point(target.index, target.uv_m, "none") for target in read]
+    cells = planned_cells(planned.targets)
+    scored = score(points, [raster_of(disc(0.0, 0.0, 0.1))], cells)
+    probe = nine_points().platform.sensor(HalfCellModel)
+    (found,) = assess_points(points, mission, probe, cells)
+    assert found.summary.area_m2 == pytest.approx(0.375, rel=1e-9)
+    assert scored.confusion().region_m2 == pytest.approx(0.375, rel=1e-9)
 
 
 def test_added_points_share_the_area_of_their_neighbours() -> None:
@@ -232,7 +271,7 @@ def test_added_points_share_the_area_of_their_neighbours() -> None:
     raster = raster_of(disc(0.0, 0.0, 0.1))
     uv = np.vstack([grid(4, 2, 0.25), [[0.0, 0.125]]])
     cells = cells_around(uv, 0.25, raster)
-    areas = np.bincount(cells.owner) * cells.area_m2
+    areas = weighed(cells.owner, cells.area_m2, len(uv))
     assert areas.sum() == pytest.approx(0.5, rel=0.01)
     expected = [0.0625] * 9
     expected[5] = expected[6] = 0.75 * 0.0625
@@ -273,7 +312,7 @@ def test_a_region_can_be_shared_among_other_points() -> None:
     raster = raster_of(disc(0.0, 0.0, 0.1))
     region = cells_around(grid(8, 4, 0.25), 0.25, raster)
     halves = nearest_to(region, np.array([[-0.5, 0.0], [0.5, 0.0]]), raster)
-    assert np.bincount(halves.owner) * halves.area_m2 == pytest.approx([1.0, 1.0])
+    assert weighed(halves.owner, halves.area_m2, 2) == pytest.approx([1.0, 1.0])
     none = nearest_to(region, np.empty((0, 2)), raster)
     surface = score_surface(Judged(np.empty((0, 2)), (), ()), none, raster)
     assert surface.combined.missed_m2 == pytest.approx(surface.combined.active_m2)
@@ -354,7 +393,11 @@ def test_a_survey_is_scored_over_all_points_and_not_flight_by_flight() -> None:
     halves = [
         flown.model_copy(update={"points": tuple(half)}) for half in (points[::2], points[1::2])
     ]
-    score_all = scorer([raster], mission(gridded(8, 4, 0.25)))
+    (target, *_) = nine_points().plan.targets
+    targets = [
+        target.model_copy(update={"label": one.label, "cell_m": (0.25, 0.25)}) for one in points
+    ]
+    score_all = scorer([raster], targets)
     joined = joined_result(halves, [], [], 1, score_all)
     assert joined.scoring is not None
     assert joined.metrics["scoring.sites_total"].value == 1.0

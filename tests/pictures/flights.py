@@ -8,16 +8,17 @@ from pathlib import Path
 import numpy as np
 from modes import TABLE_JSON, Mode
 
+from inspect_cli.interfaces import DepthLaw
 from inspect_cli.log.reader import RunLog, read_log
 from inspect_cli.log.writer import LogWriter
 from inspect_cli.records import Command, Estimate, Reading, Reference, State
 from inspect_cli.schema.geometry import CylinderShape, PlaneShape, Shape, SphereShape
 from inspect_cli.schema.loading import load_platform
 from inspect_cli.schema.mission import Mission
-from inspect_cli.schema.plan import Leg, Plan, PlannedSurface, PostureModel, Target
+from inspect_cli.schema.plan import Leg, MarginModel, Plan, PlannedSurface, PostureModel, Target
 from inspect_cli.schema.result import PointResult, Result
 
-LENGTHS = {"n_rotors": 12, "n_joints": 6, "n_arm": 0}
+LENGTHS = {"n_rotors": 12, "n_joints": 6, "n_servos": 6, "n_arm": 0}
 TOOL_M = 0.6
 """The flights need not be exact: the tip is drawn where the model has it."""
 UP = (1.0, 0.0, 0.0, 0.0)
@@ -63,9 +64,10 @@ def plan(shape: Shape = WALL, count: int = 3) -> Plan:
             Target(
                 index=k, label=str(k + 1), kind="contact", impedance="contact_ndt",
                 surface="surface", uv_m=(0.15 * (k - 1), 0.0), p_WC=tuple(p_WC), n_W=tuple(n_W),
-                q_WT=(0.5, 0.5, 0.5, 0.5), sensor="half_cell", press_m=0.1, dwell_s=0.2,
-                standoff_m=0.2, standoff=body, contact=body, expected_force_n=1.8,
-                thrust_margin_n=3.0, tilt_margin_rad=None, clearance_m=0.2,
+                q_WT=(0.5, 0.5, 0.5, 0.5), sensor="half_cell",
+                law=DepthLaw(0.1, "contact_ndt", 1.8), dwell_s=0.2,
+                standoff_m=0.2, standoff=body, contact=body,
+                margins={"thrust": MarginModel(value=3.0, unit="N")}, clearance_m=0.2,
             )
         )  # fmt: skip
     leg = Leg(kind="transit", target=0, postures=(home,), speed_mps=0.5, duration_s=1.0)

@@ -6,8 +6,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from inspect_cli.interfaces import Margins, Posture
+from inspect_cli.interfaces import TOOL, DepthLaw, Posture, Shortfall
 from inspect_cli.spatial.rotations import matrix_to_quaternion, quaternion_to_matrix
+from inspect_cli.vehicles.tilt_rotor.capabilities import thrust_margin, tilt_margin
 
 WEIGHT_N = 46.6
 Y_B = np.array([0.0, 1.0, 0.0])
@@ -37,12 +38,15 @@ class RigidVehicle:
     max_angular_rate_radps: float = 1.0
     impedances: tuple[str, ...] = ("contact_ndt",)
     standing_height_m: float = 0.25
+    frames: tuple[str, ...] = (TOOL,)
+    tasks: frozenset[str] = frozenset()
 
     @property
     def lengths(self):
-        return {"n_rotors": 12, "n_joints": 6}
+        return {"n_rotors": 12, "n_joints": 6, "n_servos": 6}
 
-    def tool_pose(self, posture):
+    def frame_pose(self, posture, frame):
+        assert frame == TOOL
         R_WB = quaternion_to_matrix(posture.q_WB)
         pitch = np.radians(self.pitch_deg)
         return (
@@ -50,7 +54,8 @@ class RigidVehicle:
             R_WB @ tool_axes(pitch),
         )
 
-    def posture_for_tool(self, p_WT, R_WT, near):
+    def solve(self, goals, loads, near):
+        p_WT, R_WT = goals[TOOL].p, goals[TOOL].R
         pitch = np.radians(self.pitch_deg)
         R_WB = R_WT @ tool_axes(pitch).T
         p_WB = p_WT - R_WB @ (self.length_m * tool_direction(pitch))
@@ -64,19 +69,20 @@ class RigidVehicle:
         R_WB = quaternion_to_matrix(posture.q_WB)
         return np.column_stack([posture.p_WB + centers @ R_WB.T, radii])
 
-    def margins(self, posture, wrench_tool_W):
-        needed = np.array([0.0, 0.0, WEIGHT_N]) - wrench_tool_W[:3]
+    def margins(self, posture, loads):
+        needed = np.array([0.0, 0.0, WEIGHT_N]) - loads.get(TOOL, np.zeros(6))[:3]
         thrust = (self.max_thrust_n - np.linalg.norm(needed)) / 6.0
         if self.max_tilt_deg is None:
-            return Margins(thrust, np.inf)
+            return {"thrust": thrust_margin(thrust)}
         z_B = quaternion_to_matrix(posture.q_WB)[:, 2]
         tilt = np.arccos(np.clip(z_B @ needed / np.linalg.norm(needed), -1.0, 1.0))
-        return Margins(thrust, np.radians(self.max_tilt_deg) - tilt)
+        left = np.radians(self.max_tilt_deg) - tilt
+        return {"thrust": thrust_margin(thrust), "tilt": tilt_margin(left)}
 
-    def press_force(self, press_m, impedance):
-        return 18.0 * press_m
+    def contact_law(self, pressing, profile):
+        return DepthLaw(pressing.press_m, profile, 18.0 * pressing.press_m)
 
-    def hover_power_w(self, posture):
+    def power_w(self, posture, loads):
         return 500.0 + 100.0 * (1.0 - quaternion_to_matrix(posture.q_WB)[2, 2])
 
 
@@ -93,28 +99,32 @@ class ArmVehicle:
     max_angular_rate_radps: float = 1.0
     impedances: tuple[str, ...] = ("contact_ndt",)
     standing_height_m: float = 0.25
+    frames: tuple[str, ...] = (TOOL,)
+    tasks: frozenset[str] = frozenset()
 
     @property
     def lengths(self):
-        return {"n_rotors": 4, "n_joints": 1}
+        return {"n_rotors": 4, "n_joints": 1, "n_servos": 1}
 
     def angle(self, posture):
-        return posture.arm_angle[0] if posture.arm_angle.size else np.radians(self.rest_deg)
+        return posture.joint_angle[0] if posture.joint_angle.size else np.radians(self.rest_deg)
 
-    def tool_pose(self, posture):
+    def frame_pose(self, posture, frame):
+        assert frame == TOOL
         R_WB = quaternion_to_matrix(posture.q_WB)
         angle = self.angle(posture)
         tip = posture.p_WB + R_WB @ (self.length_m * tool_direction(angle))
         return tip, R_WB @ tool_axes(angle)
 
-    def posture_for_tool(self, p_WT, R_WT, near):
+    def solve(self, goals, loads, near):
+        p_WT, R_WT = goals[TOOL].p, goals[TOOL].R
         y_B, z_B = R_WT[:, 1], np.array([0.0, 0.0, 1.0])
         if abs(y_B[2]) > 1e-9:
-            return None
+            return Shortfall()
         x_B = np.cross(y_B, z_B)
         angle = np.arctan2(R_WT[:, 2] @ x_B, -R_WT[2, 2])
         if not np.radians(self.low_deg) <= angle <= np.radians(self.high_deg):
-            return None
+            return Shortfall()
         p_WB = p_WT - self.length_m * R_WT[:, 2]
         q_WB = matrix_to_quaternion(np.column_stack([x_B, y_B, z_B]))
         return Posture(p_WB, q_WB, np.array([angle]))
@@ -124,11 +134,12 @@ class ArmVehicle:
         arm = posture.p_WB + R_WB @ (0.4 * tool_direction(self.angle(posture)))
         return np.array([[*posture.p_WB, 0.2], [*arm, 0.05]])
 
-    def margins(self, posture, wrench_tool_W):
-        return Margins(10.0 - 0.1 * float(np.linalg.norm(wrench_tool_W)), np.inf)
+    def margins(self, posture, loads):
+        pushed = float(np.linalg.norm(loads.get(TOOL, np.zeros(6))))
+        return {"thrust": thrust_margin(10.0 - 0.1 * pushed)}
 
-    def press_force(self, press_m, impedance):
-        return 10.0 * press_m
+    def contact_law(self, pressing, profile):
+        return DepthLaw(pressing.press_m, profile, 10.0 * pressing.press_m)
 
-    def hover_power_w(self, posture):
+    def power_w(self, posture, loads):
         return 300.0

@@ -15,7 +15,7 @@ def tips_of(capabilities, survey):
     targets = [target for sortie in survey.sorties for target in sortie.plan.targets]
     tips = np.array([np.array(t.p_WC) + t.standoff_m * np.array(t.n_W) for t in targets])
     hover = survey.sorties[0].plan.legs[0].postures[-1]
-    return tips, capabilities.tool_pose(hover.posture)[0]
+    return tips, capabilities.frame_pose(hover.posture, "tool")[0]
 
 
 def solver_m(points_W, start_W, limit_s: int) -> float:

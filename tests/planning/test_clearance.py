@@ -55,7 +55,7 @@ def dense_gap(vehicle, tree, a, b, steps=100):
     gap = np.inf
     for share in np.linspace(0.0, 1.0, steps + 1):
         q = slerp(share).as_quat()[[3, 0, 1, 2]]
-        arm = a.arm_angle + share * (b.arm_angle - a.arm_angle)
+        arm = a.joint_angle + share * (b.joint_angle - a.joint_angle)
         posture = Posture(a.p_WB + share * (b.p_WB - a.p_WB), quaternion_normalize(q), arm)
         spheres = vehicle.collision_spheres(posture)
         gap = min(gap, float((tree.query(spheres[:, :3])[0] - spheres[:, 3]).min()))

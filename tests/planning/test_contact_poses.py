@@ -7,7 +7,8 @@ import pytest
 from builders import ball, column, grid, plan, wall
 from rigid import ArmVehicle, RigidVehicle
 
-from inspect_cli.interfaces import Posture
+from inspect_cli.errors import InfeasibleError
+from inspect_cli.interfaces import TOOL, DepthLaw, Posture, Shortfall
 from inspect_cli.planning.contact_poses import tool_attitudes, touches
 from inspect_cli.planning.points import points_of_task
 from inspect_cli.schema.mission import Task
@@ -65,11 +66,7 @@ def test_tool_meets_the_surface_head_on_and_level(name, vehicle):
             (target.contact, 0.0),
             (press[target.index], -target.press_m),
         ):
-            p_WT, R_WT = vehicle.tool_pose(
-                Posture(
-                    np.array(posture.p_WB), np.array(posture.q_WB), np.array(posture.arm_angle_rad)
-                )
-            )
+            p_WT, R_WT = vehicle.frame_pose(posture.posture, TOOL)
             np.testing.assert_allclose(p_WT, p_WC + distance * n, atol=1e-9)
             np.testing.assert_allclose(R_WT[:, 2], -n, atol=1e-9)
             assert abs(R_WT[2, 1]) < EXACT
@@ -96,8 +93,8 @@ def _touch_ceiling(slope_deg, previous, vehicle):
     slope = np.radians(slope_deg)
     shape = wall(center=(0.0, 0.0, 3.0), normal=(np.sin(slope), 0.0, -np.cos(slope)))
     task = Task.model_validate({"contact_grid": grid(columns=1)["contact_grid"]})
-    point = points_of_task(task, primitive_of(shape), 1, "contact_ndt")[0]
-    return touches(vehicle, point, previous)[0]
+    point = points_of_task(task, primitive_of(shape), 1, "contact_ndt", None)[0]
+    return touches(vehicle, point, DepthLaw(0.1, "contact_ndt", 1.8), previous)[0]
 
 
 @pytest.mark.parametrize("heading_deg", [0.0, 35.0, 120.0, -150.0])
@@ -141,3 +138,47 @@ def test_upright_goes_before_heading():
     R_WB = quaternion_to_matrix(np.array(made.targets[0].contact.q_WB))
     assert R_WB[2, 2] == pytest.approx(0.5, abs=1e-12)
     np.testing.assert_allclose(R_WB[:, 1], [0.0, -1.0, 0.0], atol=1e-12)
+
+
+class Recorder(RigidVehicle):
+    """Remembers where its tool was wanted, and under which loads."""
+
+    def solve(self, goals, loads, near):
+        self.asked.append((goals[TOOL].p.copy(), {k: v.copy() for k, v in loads.items()}))
+        return super().solve(goals, loads, near)
+
+    @property
+    def asked(self):
+        return self.__dict__.setdefault("_asked", [])
+
+
+def test_the_vehicle_hears_the_load_of_the_contact_and_none_at_the_standoff():
+    vehicle = Recorder()
+    point = points_of_task(
+        Task.model_validate(grid(columns=1)), primitive_of(wall()), 1, "contact_ndt", None
+    )[0]
+    touches(vehicle, point, DepthLaw(0.1, "contact_ndt", 1.8), Posture(np.zeros(3), LEVEL))
+    pushed = np.array([-1.8, 0.0, 0.0, 0.0, 0.0, 0.0])
+    for k, (p, loads) in enumerate(vehicle.asked):
+        if k % 3 == 0:
+            assert p[0] == pytest.approx(2.0 - 0.25)
+            assert loads == {}
+        else:
+            assert p[0] == pytest.approx(2.0 + (0.0, 0.10)[k % 3 - 1])
+            assert set(loads) == {TOOL}
+            np.testing.assert_allclose(loads[TOOL], pushed, atol=1e-12)
+    assert len(vehicle.asked) == 6
+
+
+class Unable(RigidVehicle):
+    def solve(self, goals, loads, near):
+        return Shortfall("its arm is off", "switch it on")
+
+
+def test_why_no_posture_does_it_is_in_the_vehicles_words():
+    with pytest.raises(InfeasibleError) as refusal:
+        plan(Unable(), grid(columns=1))
+    (problem,) = refusal.value.problems
+    assert "no posture brings the tool to (2.00, 0.00, 1.50)" in problem.what
+    assert problem.what.endswith(": its arm is off")
+    assert problem.hint == "switch it on"

@@ -39,8 +39,8 @@ def test_nine_points_on_a_wall():
         # Disc of 0.42 m, level, 0.55 m from the wall at contact.
         assert target.clearance_m == pytest.approx(0.13, abs=1e-9)
         # Weight 46.6 N and 1.8 N from the wall, against 120 N in six groups.
-        assert target.thrust_margin_n == pytest.approx((120.0 - np.hypot(46.6, 1.8)) / 6.0)
-        assert target.tilt_margin_rad is None
+        assert target.margins["thrust"].value == pytest.approx((120.0 - np.hypot(46.6, 1.8)) / 6.0)
+        assert set(target.margins) == {"thrust"}
     far = max(np.linalg.norm(t.p_WC) for t in made.targets)
     assert made.cable_m == pytest.approx(far)
     assert Plan.model_validate_json(made.model_dump_json(by_alias=True)) == made

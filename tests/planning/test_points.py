@@ -11,8 +11,10 @@ from inspect_cli.schema.mission import Task
 from inspect_cli.schema.primitives import primitive_of
 
 
-def touch_points(task, shape, first=1):
-    return points_of_task(Task.model_validate(task), primitive_of(shape), first, "contact_ndt")
+def touch_points(task, shape, first=1, cell_m=None):
+    return points_of_task(
+        Task.model_validate(task), primitive_of(shape), first, "contact_ndt", cell_m
+    )
 
 
 def test_grid_on_a_wall_runs_left_to_right_and_downwards():

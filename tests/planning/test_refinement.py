@@ -6,7 +6,7 @@ from builders import wall
 
 from inspect_cli.planning.refinement import Measured, places_between
 from inspect_cli.schema.primitives import primitive_of
-from inspect_cli.schema.tasks import Coverage, Refinement
+from inspect_cli.schema.tasks.coverage import Coverage, Refinement
 
 PRIM = primitive_of(wall(size=(2.0, 2.0)))
 COVERAGE = Coverage(on="wall", pitch_m=0.25)

@@ -56,7 +56,7 @@ def test_extent_takes_the_larger_of_turn_and_joint():
         np.array([3.0, 0.0, 4.0]), quaternion_exp(np.array([0.1, -0.2, 0.2])), np.array([0.0, 0.9])
     )
     assert extent(a, b) == pytest.approx((5.0, 0.7))
-    c = replace(b, arm_angle=np.array([0.0, 0.3]))
+    c = replace(b, joint_angle=np.array([0.0, 0.3]))
     assert extent(a, c) == pytest.approx((5.0, 0.3))
 
 

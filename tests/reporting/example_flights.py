@@ -42,6 +42,9 @@ ARM_M = 0.55
 STANDOFF_M = 0.25
 PRESS_M = 0.10
 FORCE_N = 1.8
+LAW = {"kind": "depth", "depth_m": PRESS_M, "profile": "contact_ndt"} | {
+    "expected_force_n": FORCE_N
+}
 HZ = 100
 HOME = np.array([ARM_M, 0.0, 0.2])
 
@@ -350,14 +353,12 @@ def _plan(
             "n_W": [-1, 0, 0],
             "q_WT": [0.7071067811865476, 0, 0.7071067811865476, 0],
             "sensor": "half_cell",
-            "press_m": PRESS_M,
+            "law": LAW,
             "dwell_s": 3.0,
             "standoff_m": STANDOFF_M,
             "standoff": _posture(world(u, v) - [STANDOFF_M, 0, 0]),
             "contact": _posture(world(u, v)),
-            "expected_force_n": FORCE_N,
-            "thrust_margin_n": 5.0,
-            "tilt_margin_rad": None,
+            "margins": {"thrust": {"value": 5.0, "unit": "N"}},
             "clearance_m": 0.12,
         }
         for k, (u, v) in enumerate(places)

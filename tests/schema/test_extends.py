@@ -8,7 +8,7 @@ import pytest
 
 from inspect_cli.errors import SchemaError
 from inspect_cli.schema.loading import load_mission
-from inspect_cli.schema.truth import AnalyticSpecimen
+from inspect_cli.schema.specimens import AnalyticSpecimen
 
 
 def refusal(file: Path) -> str:

@@ -12,7 +12,8 @@ from pydantic import TypeAdapter, ValidationError
 from inspect_cli.schema.explain import problems_of
 from inspect_cli.schema.geometry import CylinderShape, Shape, SphereShape
 from inspect_cli.schema.nodes import Node
-from inspect_cli.schema.tasks import ContactOptions, ContactPoints
+from inspect_cli.schema.tasks.base import ContactOptions
+from inspect_cli.schema.tasks.contact_points import ContactPoints
 
 Refusal = Callable[[str, str], list[str]]
 
@@ -203,8 +204,10 @@ def test_a_patch_may_go_around_once() -> None:
 
 
 def test_an_electrode_that_does_not_exist(platform_refusal: Refusal) -> None:
-    (found,) = platform_refusal("  half_cell:\n", "  half_cell:\n    electrode: Ag/AgCl\n")
-    assert "sensors.half_cell.electrode" in found
+    (found,) = platform_refusal(
+        "    kind: half_cell\n", "    kind: half_cell\n    electrode: Ag/AgCl\n"
+    )
+    assert "sensors.probe.electrode" in found
     assert "p.yaml:" in found
     for choice in ("CSE", "SCE", "Ag/AgCl sat. KCl", "Ag/AgCl 0.1 M KCl"):
         assert choice in found

@@ -11,7 +11,7 @@ from inspect_cli.errors import EXIT_INPUT_REFUSED, SchemaError
 from inspect_cli.schema.campaign import builtin_root, campaign_root
 from inspect_cli.schema.loading import load_mission, load_platform
 from inspect_cli.schema.mission import Mission
-from inspect_cli.schema.vehicle import TiltRotorPlatform
+from inspect_cli.schema.vehicle import OdometryModel, TiltRotorPlatform
 
 Refusal = Callable[[str, str], list[str]]
 
@@ -269,16 +269,16 @@ def test_what_the_mission_asks_for_and_does_not_get(
 
 def test_onboard_estimation_needs_a_platform_with_odometry(campaign: Path) -> None:
     text = (builtin_root() / "platforms" / "tilt_rotor_hexarotor.yaml").read_text()
-    begin, end = text.index("  odometry:\n    position_noise_m"), text.index("  tof:\n")
+    begin, end = text.index("  odometry:\n    kind: odometry"), text.index("  tof:\n")
     platform = campaign / "platforms" / "tilt_rotor_hexarotor.yaml"
     platform.write_text(text[:begin] + text[end:])
     mission = campaign / "missions" / "m.yaml"
-    assert load_mission(mission).platform.sensors.odometry is None
+    assert load_mission(mission).platform.find(OdometryModel) is None
     mission.write_text(mission.read_text().replace("seeds: [1, 2]", "estimation: onboard"))
     with pytest.raises(SchemaError) as caught:
         load_mission(mission)
     assert str(caught.value).endswith(
-        "m.yaml:4:13: estimation: tilt_rotor_hexarotor has no sensors.odometry to fly on\n"
+        "m.yaml:4:13: estimation: tilt_rotor_hexarotor has no sensor of kind odometry to fly on\n"
         "    choices: external"
     )
 

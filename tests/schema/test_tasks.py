@@ -10,7 +10,9 @@ import pytest
 from inspect_cli.errors import SchemaError
 from inspect_cli.schema.loading import load_mission
 from inspect_cli.schema.mission import Mission
-from inspect_cli.schema.tasks import Hold, Servo, Trace
+from inspect_cli.schema.tasks.hold import Hold
+from inspect_cli.schema.tasks.servo import Servo
+from inspect_cli.schema.tasks.trace import Trace
 
 WALL = """\
 structure:

@@ -48,7 +48,9 @@ def test_the_wrist_takes_the_pitch_and_the_body_stays_level(planned):
     for target, lean in zip(targets, [DAM_DEG, DAM_DEG, OVERHANG_DEG], strict=True):
         assert np.degrees(target.contact.arm_angle_rad) == pytest.approx([lean], abs=0.01)
         assert quaternion_to_matrix(np.array(target.contact.q_WB))[2, 2] == pytest.approx(1.0)
-        assert target.tilt_margin_rad == pytest.approx(np.radians(60.0 - abs(lean)), abs=1e-3)
+        assert target.margins["wrist"].value == pytest.approx(
+            np.radians(60.0 - abs(lean)), abs=1e-3
+        )
         assert target.expected_force_n == pytest.approx(1.8)  # 0.25 · 72 N/m · 0.10 m
     assert planned.plan.start.arm_angle_rad == (0.0,)
 

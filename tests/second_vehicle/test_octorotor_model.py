@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from canted_octorotor.fixed_allocation import FixedAllocation
 
-from inspect_cli.interfaces import Posture
+from inspect_cli.interfaces import FramePose, Posture
 from inspect_cli.records import Command
 from inspect_cli.spatial.rotations import matrix_to_quaternion, roll_pitch_yaw_matrix
 
@@ -23,28 +23,29 @@ def random_posture(rng, level=True):
     return Posture(rng.normal(size=3), matrix_to_quaternion(R_WB), rng.uniform(-1.0, 1.0, 1))
 
 
-def test_tool_pose_is_that_of_the_model(vehicle, model):
+def test_tool_frame_is_that_of_the_model(vehicle, model):
     rng = np.random.default_rng(1)
     data = mujoco.MjData(model)
     for _ in range(20):
         posture = random_posture(rng, level=False)
-        data.qpos[:] = [*posture.p_WB, *posture.q_WB, *posture.arm_angle]
+        data.qpos[:] = [*posture.p_WB, *posture.q_WB, *posture.joint_angle]
         mujoco.mj_kinematics(model, data)
-        p_WT, R_WT = vehicle.capabilities.tool_pose(posture)
-        tip = model.site("tool_tip").id
+        p_WT, R_WT = vehicle.capabilities.frame_pose(posture, "tool")
+        tip = model.site("tool").id
         assert np.allclose(p_WT, data.site_xpos[tip], atol=1e-12)
         assert np.allclose(R_WT.ravel(), data.site_xmat[tip], atol=1e-12)
 
 
-def test_posture_for_tool_brings_the_tool_there(vehicle):
+def test_solving_brings_the_tool_there(vehicle):
     rng = np.random.default_rng(2)
     able = vehicle.capabilities
     for _ in range(20):
         asked = random_posture(rng)
-        found = able.posture_for_tool(*able.tool_pose(asked), near=random_posture(rng))
+        goals = {"tool": FramePose(*able.frame_pose(asked, "tool"))}
+        found = able.solve(goals, {}, random_posture(rng))
         assert np.allclose(found.p_WB, asked.p_WB, atol=1e-12)
         assert np.allclose(found.q_WB, asked.q_WB * np.sign(asked.q_WB @ found.q_WB), atol=1e-12)
-        assert np.allclose(found.arm_angle, asked.arm_angle, atol=1e-12)
+        assert np.allclose(found.joint_angle, asked.joint_angle, atol=1e-12)
 
 
 def test_allocation_is_that_of_the_model(vehicle, model):

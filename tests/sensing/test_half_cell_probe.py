@@ -14,8 +14,11 @@ from inspect_cli.sensing.half_cell import (
     steady_readings,
 )
 from inspect_cli.sensing.reading import ReadingJudge
+from inspect_cli.truth.snapshot import Truth
 
 QUIET = HalfCellModel(
+    kind="half_cell",
+    rate_hz=50,
     potential_noise_v=0.0,
     resistance_noise=0.0,
     force_noise_n=0.0,
@@ -44,7 +47,7 @@ class Bench:
         for _ in range(round(50 * seconds)):
             self.state.t_s += 0.02
             self.state.f_normal = force
-            self.probe.sample(self.state, self.contact)
+            self.probe.sample(Truth(self.state, lambda: self.contact))
             m = self.probe.measurement
             assert m.t_s == self.state.t_s
             out.append((m.potential, m.resistance, m.force))

@@ -9,11 +9,11 @@ from scipy.stats import chi2
 
 from inspect_cli.estimation.error_state import ErrorStateFilter
 from inspect_cli.records import Estimate, State
-from inspect_cli.schema.positioning import PoseModel
-from inspect_cli.schema.vehicle import ImuModel
+from inspect_cli.schema.vehicle import ImuModel, PoseTrackerModel
 from inspect_cli.sensing.imu import ImuSensor
 from inspect_cli.sensing.instrument import BLOCK, Noise
-from inspect_cli.sensing.pose import PoseSensor
+from inspect_cli.sensing.pose_tracker import PoseSensor
+from inspect_cli.truth.snapshot import Truth
 
 QUIET = dict.fromkeys(
     (
@@ -26,6 +26,12 @@ QUIET = dict.fromkeys(
     ),
     0.0,
 )
+
+
+def imu_model(**numbers: float) -> ImuModel:
+    return ImuModel(kind="imu", rate_hz=250, **{**QUIET, **numbers})
+
+
 LENGTHS = {"n_rotors": 1, "n_joints": 0}
 
 
@@ -41,20 +47,20 @@ def moving_state() -> State:
 
 def imu_samples(model: ImuModel, rate_hz: int, n: int, seed: int = 0) -> np.ndarray:
     """Samples (n, 6) of a body at rest, gravity taken off."""
-    sensor = ImuSensor(model, rate_hz, np.random.default_rng(seed))
+    sensor = ImuSensor(model.model_copy(update={"rate_hz": rate_hz}), np.random.default_rng(seed))
     state = State.create(LENGTHS)
     state.q_WB[0] = 1.0
     out = np.empty((n, 6))
     for k in range(n):
-        sensor.sample(state)
+        sensor.sample(Truth(state))
         out[k, :3], out[k, 3:] = sensor.measurement.f_B, sensor.measurement.w_B
     return out - np.array([0.0, 0.0, 9.81, 0.0, 0.0, 0.0])
 
 
 def test_ideal_imu() -> None:
     state = moving_state()
-    sensor = ImuSensor(ImuModel(**QUIET), 250, np.random.default_rng(0))
-    sensor.sample(state)
+    sensor = ImuSensor(imu_model(), np.random.default_rng(0))
+    sensor.sample(Truth(state))
     R = Rotation.from_quat(state.q_WB, scalar_first=True).as_matrix()
     assert sensor.measurement.f_B == pytest.approx(R.T @ [0.5, -1.5, 2.0 + 9.81])
     assert sensor.measurement.w_B == pytest.approx([0.1, 0.2, -0.3])
@@ -63,7 +69,7 @@ def test_ideal_imu() -> None:
 
 @pytest.mark.parametrize("rate_hz", [250, 1000])
 def test_white_noise_has_its_density(rate_hz: int) -> None:
-    model = ImuModel(**{**QUIET, "accel_noise": 2e-3, "gyro_noise": 3e-4})
+    model = imu_model(accel_noise=2e-3, gyro_noise=3e-4)
     samples = imu_samples(model, rate_hz, 20_000)
     expected = np.repeat([2e-3, 3e-4], 3) * np.sqrt(rate_hz)
     # The sample's standard deviation errs by 1/√(2n) = 0.5 %; five times that.
@@ -73,13 +79,13 @@ def test_white_noise_has_its_density(rate_hz: int) -> None:
 
 
 def test_biases_walk_as_their_density_says() -> None:
-    model = ImuModel(**{**QUIET, "accel_bias_walk": 1e-3, "gyro_bias_walk": 1e-4})
+    model = imu_model(accel_bias_walk=1e-3, gyro_bias_walk=1e-4)
     steps = np.diff(imu_samples(model, 250, 20_000), axis=0)
     assert steps.std(axis=0) * np.sqrt(250) == pytest.approx(np.repeat([1e-3, 1e-4], 3), rel=0.025)
 
 
 def test_biases_start_where_the_model_says() -> None:
-    model = ImuModel(**{**QUIET, "accel_bias_initial_mps2": 0.1, "gyro_bias_initial_radps": 0.02})
+    model = imu_model(accel_bias_initial_mps2=0.1, gyro_bias_initial_radps=0.02)
     first = np.array([imu_samples(model, 250, 2, seed) for seed in range(2000)])
     assert (first[:, 0] == first[:, 1]).all()
     sd = first[:, 0].std(axis=0)
@@ -88,13 +94,15 @@ def test_biases_start_where_the_model_says() -> None:
 
 def test_tracker_noise_is_on_the_right() -> None:
     state = moving_state()
-    model = PoseModel(position_noise_m=0.002, attitude_noise_rad=0.01)
+    model = PoseTrackerModel(
+        kind="pose_tracker", rate_hz=100, position_noise_m=0.002, attitude_noise_rad=0.01
+    )
     sensor = PoseSensor(model, np.random.default_rng(2))
     truth = Rotation.from_quat(state.q_WB, scalar_first=True)
     n = 10_000
     errors = np.empty((n, 6))
     for k in range(n):
-        sensor.sample(state)
+        sensor.sample(Truth(state))
         q = sensor.measurement.q_WB
         assert q[0] >= 0.0
         errors[k, :3] = sensor.measurement.p_WB - state.p_WB
@@ -107,9 +115,11 @@ def test_tracker_noise_is_on_the_right() -> None:
 
 def test_ideal_tracker() -> None:
     state = moving_state()
-    model = PoseModel(position_noise_m=0.0, attitude_noise_rad=0.0)
+    model = PoseTrackerModel(
+        kind="pose_tracker", rate_hz=100, position_noise_m=0.0, attitude_noise_rad=0.0
+    )
     sensor = PoseSensor(model, np.random.default_rng(0))
-    sensor.sample(state)
+    sensor.sample(Truth(state))
     assert sensor.measurement.p_WB == pytest.approx([1.0, -2.0, 3.0])
     assert sensor.measurement.q_WB == pytest.approx(state.q_WB)
 
@@ -128,6 +138,8 @@ def test_noise_does_not_repeat_and_depends_on_its_generator_alone() -> None:
 def test_the_filter_trusts_these_sensors_as_much_as_they_deserve() -> None:
     """Normalised error squared of p, v, θ over 20 hovers with a steady turn, 99.9 % band."""
     imu_model = ImuModel(
+        kind="imu",
+        rate_hz=250,
         accel_noise=2e-3,
         gyro_noise=2e-4,
         accel_bias_walk=3e-4,
@@ -135,12 +147,14 @@ def test_the_filter_trusts_these_sensors_as_much_as_they_deserve() -> None:
         accel_bias_initial_mps2=0.05,
         gyro_bias_initial_radps=0.005,
     )
-    pose_model = PoseModel(position_noise_m=0.001, attitude_noise_rad=0.003)
+    pose_model = PoseTrackerModel(
+        kind="pose_tracker", rate_hz=100, position_noise_m=0.001, attitude_noise_rad=0.003
+    )
     runs, rate = 20, 0.8
     ratio = 0.0
     for seed in range(runs):
         rng = np.random.default_rng(seed)
-        imu, pose = ImuSensor(imu_model, 250, rng), PoseSensor(pose_model, rng)
+        imu, pose = ImuSensor(imu_model, rng), PoseSensor(pose_model, rng)
         belief = ErrorStateFilter(imu_model, pose_model, 250, 100)
         estimate = Estimate.create()
         state = State.create(LENGTHS)
@@ -150,11 +164,11 @@ def test_the_filter_trusts_these_sensors_as_much_as_they_deserve() -> None:
             state.t_s = t
             state.q_WB = [np.cos(0.5 * rate * t), 0.0, 0.0, np.sin(0.5 * rate * t)]
             if k % 5 == 0:
-                pose.sample(state)
+                pose.sample(Truth(state))
             if k == 0:
                 belief.start(pose.measurement, estimate)
             if k % 2 == 0:
-                imu.sample(state)
+                imu.sample(Truth(state))
                 belief.propagate(imu.measurement, estimate)
             if k % 5 == 0 and k > 0:
                 assert belief.correct(pose.measurement, estimate)

@@ -11,11 +11,13 @@ from scipy.stats import chi2
 
 from inspect_cli.estimation.error_state import ErrorStateFilter
 from inspect_cli.records import Estimate, Imu, Odometry, State
-from inspect_cli.schema.positioning import OdometryModel
-from inspect_cli.schema.vehicle import ImuModel
+from inspect_cli.schema.vehicle import ImuModel, OdometryModel
 from inspect_cli.sensing.odometry import OdometrySensor
+from inspect_cli.truth.snapshot import Truth
 
 QUIET = {
+    "kind": "odometry",
+    "rate_hz": 30,
     "position_noise_m": 0.0,
     "attitude_noise_rad": 0.0,
     "position_walk": 0.0,
@@ -25,6 +27,8 @@ QUIET = {
     "tilt_error_rad": 0.0,
 }
 FLOWN = {
+    "kind": "odometry",
+    "rate_hz": 30,
     "position_noise_m": 0.001,
     "attitude_noise_rad": 0.002,
     "position_walk": 0.004,
@@ -52,7 +56,7 @@ def errors(path: Path, seconds: float, seed: int, **numbers: float) -> np.ndarra
     for k in range(round(30 * seconds) + 1):
         p, R = path(k / 30.0)
         state.t_s, state.p_WB, state.q_WB = k / 30.0, p, R.as_quat(scalar_first=True)
-        sensor.sample(state)
+        sensor.sample(Truth(state))
     found = Rotation.from_quat(sensor.measurement.q_WB, scalar_first=True)
     assert sensor.measurement.t_s == state.t_s
     return np.r_[sensor.measurement.p_WB - p, (found * R.inv()).as_rotvec()]
@@ -145,6 +149,8 @@ def test_the_drift_depends_on_the_seed_alone() -> None:
 
 
 IMU = ImuModel(
+    kind="imu",
+    rate_hz=250,
     accel_noise=2e-3,
     gyro_noise=2e-4,
     accel_bias_walk=3e-4,
@@ -173,7 +179,7 @@ class Shuttle:
             t = state.t_s = imu.t_s = k / 750.0
             state.p_WB = [1.0 - np.cos(0.8 * t), 0.0, 0.0]
             if k == 0:
-                self.sensor.sample(state)
+                self.sensor.sample(Truth(state))
                 self.filter.start(self.sensor.measurement, self.estimate)
             if k % 3 == 0:
                 noise = root * np.repeat([2e-3, 2e-4], 3) * rng.standard_normal(6)
@@ -182,7 +188,7 @@ class Shuttle:
                 imu.w_B = sample[3:]
                 self.filter.propagate(imu, self.estimate)
             if k % 25 == 0 and k > 0:
-                self.sensor.sample(state)
+                self.sensor.sample(Truth(state))
                 self.rejected += not self.filter.correct(self.sensor.measurement, self.estimate)
         self.true_p = state.p_WB.copy()
         self.odometry_p = self.sensor._believed[:3].copy()
@@ -243,5 +249,5 @@ def test_a_steady_drift_moves_what_it_believes_at_rest_too() -> None:
     state.q_WB[0] = 1.0
     for k in range(301):
         state.t_s = 1.0 + k / 30.0
-        sensor.sample(state)
+        sensor.sample(Truth(state))
     np.testing.assert_allclose(sensor.measurement.p_WB, [0.02, 0.0, -0.01], atol=1e-12)

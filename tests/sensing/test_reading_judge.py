@@ -11,8 +11,11 @@ from inspect_cli.records import InvalidReason, Probe, Reading, State, TrueContac
 from inspect_cli.schema.vehicle import HalfCellModel
 from inspect_cli.sensing.half_cell import OVER_RANGE_OHM, HalfCellProbe
 from inspect_cli.sensing.reading import FORCE_MEAN_S, ReadingJudge
+from inspect_cli.truth.snapshot import Truth
 
 MODEL = HalfCellModel(
+    kind="half_cell",
+    rate_hz=50,
     potential_noise_v=0.002,
     resistance_noise=0.03,
     force_noise_n=0.05,
@@ -166,7 +169,7 @@ def simulated_visit(force_n: float, specimen: bool, seed: int) -> Reading:
     judge = ReadingJudge(MODEL, DWELL)
     judge.begin(0, 0.0)
     while not judge.done(state.t_s):
-        probe.sample(state, contact)
+        probe.sample(Truth(state, lambda: contact))
         judge.feed(probe.measurement, np.zeros(3))
         state.t_s += 0.02
     return judge.finish(state.t_s)

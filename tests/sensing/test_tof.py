@@ -7,8 +7,8 @@ import pytest
 
 from inspect_cli.records import State
 from inspect_cli.schema.geometry import Displacement, MeshShape
-from inspect_cli.schema.vehicle import TofModel
-from inspect_cli.sensing.tof import TofCamera
+from inspect_cli.schema.vehicle import DepthCameraModel, MountModel
+from inspect_cli.sensing.depth_camera import DepthCamera
 from inspect_cli.spatial.primitives import PRIMITIVE, plane, sphere
 from inspect_cli.spatial.rotations import (
     matrix_to_quaternion,
@@ -16,6 +16,7 @@ from inspect_cli.spatial.rotations import (
     roll_pitch_yaw_matrix,
 )
 from inspect_cli.truth.heights import mesh_relief
+from inspect_cli.truth.snapshot import Truth
 from inspect_cli.truth.solids import Solids, foot_on
 
 LENGTHS = {"n_rotors": 4, "n_joints": 0}
@@ -23,9 +24,11 @@ R_BT = np.array([[0.0, 0.0, 1.0], [0.0, 1.0, 0.0], [-1.0, 0.0, 0.0]])
 P_BD = np.array([0.16, 0.0, 0.06])
 
 
-def model(noise_floor_m=0.0, noise_m=0.0) -> TofModel:
-    return TofModel(
-        position_B_m=tuple(P_BD.tolist()),
+def model(noise_floor_m=0.0, noise_m=0.0) -> DepthCameraModel:
+    return DepthCameraModel(
+        kind="depth_camera",
+        rate_hz=10,
+        mount=MountModel(frame="body", position_m=tuple(P_BD.tolist()), axes="tool"),
         columns=64,
         rows=48,
         field_of_view_deg=(62.0, 45.0),
@@ -45,8 +48,8 @@ def state_at(p_WB, R_WB=None) -> State:
     return state
 
 
-def camera(primitives, seed=1, **noise) -> TofCamera:
-    return TofCamera(model(**noise), Solids(primitives), np.random.default_rng(seed))
+def camera(primitives, seed=1, **noise) -> DepthCamera:
+    return DepthCamera(model(**noise), Solids(primitives), np.random.default_rng(seed))
 
 
 def in_world(points_D, state):
@@ -60,7 +63,7 @@ def test_every_pixel_lies_on_a_tilted_wall_seen_from_a_tilted_body():
     wall = plane([1.5, 0.0, 1.0], n, [20.0, 20.0])
     state = state_at([0.1, -0.2, 1.1], roll_pitch_yaw_matrix(0.1, -0.15, 0.2))
     cam = camera(wall)
-    cam.sample(state)
+    cam.sample(Truth(state))
     points = in_world(cam.points_D, state)
     seen = np.isfinite(points).all(axis=1)
     assert seen.sum() > 2500
@@ -69,7 +72,7 @@ def test_every_pixel_lies_on_a_tilted_wall_seen_from_a_tilted_body():
 
 def test_field_of_view_is_the_angle_between_the_outer_pixels_edges():
     cam = camera(plane([1.66, 0.0, 0.06], [-1.0, 0.0, 0.0], [9.0, 9.0]))
-    cam.sample(state_at([0.0, 0.0, 0.0]))
+    cam.sample(Truth(state_at([0.0, 0.0, 0.0])))
     image = cam.points_D.reshape(48, 64, 3)
     # At 1.5 m before the camera the outermost pixel's middle is half a pixel inside the edge.
     assert image[0, 0, 1] == pytest.approx(1.5 * np.tan(np.radians(31.0)) * 63 / 64, rel=1e-9)
@@ -87,7 +90,7 @@ def test_field_of_view_is_the_angle_between_the_outer_pixels_edges():
 def test_image_is_upright(offset_W, rows, columns):
     patch = plane(np.array([1.16, 0.0, 0.06]) + offset_W, [-1.0, 0.0, 0.0], [0.1, 0.1])
     cam = camera(patch)
-    cam.sample(state_at([0.0, 0.0, 0.0]))
+    cam.sample(Truth(state_at([0.0, 0.0, 0.0])))
     seen = np.isfinite(cam.points_D[:, 0]).reshape(48, 64)
     assert seen.sum() > 10
     assert seen[rows, columns].sum() == seen.sum()
@@ -97,13 +100,13 @@ def test_image_is_upright(offset_W, rows, columns):
 def test_nothing_returns_from_out_of_range(distance):
     wall = plane([0.16 + distance, 0.0, 0.06], [-1.0, 0.0, 0.0], [0.03, 0.03])
     cam = camera(wall, noise_floor_m=0.005)
-    cam.sample(state_at([0.0, 0.0, 0.0]))
+    cam.sample(Truth(state_at([0.0, 0.0, 0.0])))
     assert np.isnan(cam.points_D).all()
 
 
 def test_empty_world_returns_nothing():
     cam = camera(np.zeros(0, PRIMITIVE))
-    cam.sample(state_at([0.0, 0.0, 0.0]))
+    cam.sample(Truth(state_at([0.0, 0.0, 0.0])))
     assert np.isnan(cam.points_D).all()
 
 
@@ -112,7 +115,7 @@ def test_nearest_of_several_surfaces_is_seen():
     ball = sphere([1.5, 0.0, 0.06], 0.3, [-1.0, 0.0, 0.0], [9.0, 9.0])
     cam = camera(np.concatenate([wall, ball]))
     state = state_at([0.0, 0.0, 0.0])
-    cam.sample(state)
+    cam.sample(Truth(state))
     points = in_world(cam.points_D, state)
     on_ball = np.abs(np.linalg.norm(points - [1.5, 0.0, 0.06], axis=1) - 0.3) < 1e-9
     on_wall = np.abs(points[:, 0] - 2.0) < 1e-9
@@ -128,12 +131,12 @@ def test_noise_is_along_the_ray_and_grows_with_the_square_of_the_range(depth):
     wall = plane([0.16 + depth, 0.0, 0.06], [-1.0, 0.0, 0.0], [9.0, 9.0])
     state = state_at([0.0, 0.0, 0.0])
     clean, noisy = camera(wall), camera(wall, noise_floor_m=0.003, noise_m=0.004)
-    clean.sample(state)
+    clean.sample(Truth(state))
     true_range = np.linalg.norm(clean.points_D, axis=1)
     rays = clean.points_D / true_range[:, None]
     scores = []
     for _ in range(10):
-        noisy.sample(state)
+        noisy.sample(Truth(state))
         measured = np.sum(noisy.points_D * rays, axis=1)
         assert np.abs(noisy.points_D - measured[:, None] * rays).max() < 1e-12
         scores.append((measured - true_range) / (0.003 + 0.004 * true_range**2))
@@ -147,7 +150,7 @@ def test_same_seed_gives_the_same_image_and_another_seed_another():
     images = []
     for seed in (5, 5, 6):
         cam = camera(wall, seed=seed, noise_floor_m=0.005)
-        cam.sample(state_at([0.0, 0.0, 0.0]))
+        cam.sample(Truth(state_at([0.0, 0.0, 0.0])))
         images.append(cam.points_D)
     assert np.array_equal(images[0], images[1])
     assert not np.array_equal(images[0], images[2])
@@ -157,9 +160,9 @@ def test_a_vault_is_seen_as_its_heights_say(root):
     shape = MeshShape(file="missions/scans/vault.ply", normal=(0.0, 0.0, -1.0))
     relief = mesh_relief(shape, Displacement(), root)
     solids = Solids(np.zeros(0, PRIMITIVE), relief.row, relief.nodes)
-    cam = TofCamera(model(), solids, np.random.default_rng(1))
+    cam = DepthCamera(model(), solids, np.random.default_rng(1))
     state = state_at([0.4, 0.2, 2.2], roll_pitch_yaw_matrix(0.1, -1.2, 0.3))
-    cam.sample(state)
+    cam.sample(Truth(state))
     points = in_world(cam.points_D, state)
     seen = np.isfinite(points).all(axis=1)
     assert seen.sum() > 2500

@@ -71,13 +71,7 @@ def test_an_uneven_rate_is_never_early_and_less_than_a_step_late() -> None:
     assert times[:4] == [0.0, 0.034, 0.067, 0.100]
 
 
-def test_the_odometry_alone_may_be_uneven() -> None:
-    assert Rates(odometry_hz=30).odometry_hz == 30
-    with pytest.raises(ValueError, match="odometry_hz 1200 is above physics_hz 1000"):
-        Rates(odometry_hz=1200)
-
-
-@pytest.mark.parametrize("name", sorted(set(Rates.model_fields) - {"physics_hz", "odometry_hz"}))
+@pytest.mark.parametrize("name", sorted(set(Rates.model_fields) - {"physics_hz"}))
 def test_a_platform_with_such_rates_is_refused(name: str) -> None:
     with pytest.raises(ValueError, match=name):
         Rates(**{name: 300})

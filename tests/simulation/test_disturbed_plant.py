@@ -115,7 +115,10 @@ def hinged(vehicle: Vehicle) -> Vehicle:
         )
         return built
 
-    names = ("platform", "capabilities", "actuators", "tip", "flight_stack")
+    names = (
+        "platform", "capabilities", "bodies", "frames", "contacts", "joints", "posture_joints",
+        "actuators", "flight_stack",
+    )  # fmt: skip
     return SimpleNamespace(nominal_spec=spec, **{name: getattr(vehicle, name) for name in names})
 
 
@@ -126,7 +129,9 @@ def test_an_articulated_arm_is_turned_by_what_pulls_at_its_tip(vehicle: Vehicle)
     model = build_world(jointed, TruePlatform(), structure)
     load = Disturbances([ROPE, WIND], np.random.default_rng(0), 250)
     calm = Proximity(
-        ProximityEffects(ground=False, ceiling=False, wall=False), structure.solids, 0.1
+        ProximityEffects(ground=False, ceiling=False, wall=False),
+        structure.solids,
+        np.full(12, 0.1),
     )
     plant = Plant(model, jointed, vehicle.capabilities.lengths, structure.solids, load, calm, 250)
     placed(plant, [0.0, 0.0, 5.0], TILTED)
@@ -140,7 +145,7 @@ def test_an_articulated_arm_is_turned_by_what_pulls_at_its_tip(vehicle: Vehicle)
         fresh.qpos[:] = base
         mujoco.mj_integratePos(model, fresh.qpos, nudge, 1.0)
         mujoco.mj_kinematics(model, fresh)
-        jacobian[:, k] = (fresh.site("tool_tip").xpos - tip) / 1e-6
+        jacobian[:, k] = (fresh.site("tool").xpos - tip) / 1e-6
     expected = jacobian.T @ load.load.force_tip_W
     expected[:3] += load.load.force_W
     np.testing.assert_allclose(plant.data.qfrc_applied, expected, atol=1e-4)

@@ -13,7 +13,7 @@ from modes import Mode
 from scenarios import TWO_POINTS, Array, Flown, Scenario
 
 from inspect_cli.records import Record, State
-from inspect_cli.simulation.instruments import Instruments
+from inspect_cli.simulation.mounts import Mount
 from inspect_cli.simulation.plant import Plant
 from inspect_cli.simulation.recorder import Recorder
 from inspect_cli.truth.contact import ContactTruth
@@ -198,6 +198,7 @@ class Poison:
         self.hidden: dict[int, tuple[Array, Array]] = {}
         """The numbers that everybody sees, and those that are so."""
         self.controls = 0
+        self.seeing = False
 
     def spoil(self, record: Record) -> None:
         numbers = record.array.view(np.float64)
@@ -208,12 +209,16 @@ class Poison:
         """The function, which sees the truth as long as it runs."""
 
         def with_truth(*arguments: object) -> object:
+            if self.seeing:  # called by another that sees it
+                return function(*arguments)
+            self.seeing = True
             for numbers, truth in self.hidden.values():
                 numbers[:] = truth
             result = function(*arguments)
             for numbers, truth in self.hidden.values():
                 truth[:] = numbers
                 numbers[:] = np.nan
+            self.seeing = False
             return result
 
         return with_truth
@@ -235,18 +240,18 @@ def test_poisoned_truth_changes_nothing_downstream_of_the_sensors(
     def update_and_spoil(truth: ContactTruth, state: State) -> Record:
         contact = poison.antidote(update)(truth, state)
         assert isinstance(contact, Record)
-        if id(contact) not in poison.hidden:
+        if id(contact) not in poison.hidden and not poison.seeing:
             poison.spoil(contact)
         return contact
 
     def control_without_truth(*arguments: object) -> None:
-        assert len(poison.hidden) == 2  # State and TrueContact
+        # State, and from the first row of the log on TrueContact
+        assert len(poison.hidden) == (2 if poison.controls else 1)
         assert all(np.isnan(numbers).all() for numbers, _ in poison.hidden.values())
         poison.controls += 1
         control(*arguments)
 
-    for name in ("sample_imu", "sample_pose", "sample_tof", "sample_probe"):
-        monkeypatch.setattr(Instruments, name, poison.antidote(getattr(Instruments, name)))
+    monkeypatch.setattr(Mount, "sample", poison.antidote(Mount.sample))
     monkeypatch.setattr(Recorder, "rows", poison.antidote(Recorder.rows))
     monkeypatch.setattr(Plant, "observe", observe_and_spoil)
     monkeypatch.setattr(ContactTruth, "update", update_and_spoil)
@@ -265,7 +270,7 @@ def test_a_calomel_electrode_in_warm_concrete_comes_back_to_the_standards_scale(
     """
     (campaign / "platforms" / "calomel.yaml").write_text(
         "schema: 1\nextends: tilt_rotor_hexarotor.yaml\nname: calomel\nkind: tilt_rotor\n"
-        "sensors: {half_cell: {electrode: SCE}}\n"
+        "sensors: {probe: {electrode: SCE}}\n"
     )
     warm = """
         structure:

@@ -57,9 +57,9 @@ def test_pose_and_velocity_are_mujocos_own(vehicle: Vehicle) -> None:
         Rotation.from_quat(np.roll(state.q_WB, -1)).as_matrix(), R_WB, atol=1e-12
     )
     assert state.q_WB[0] >= 0.0
-    np.testing.assert_allclose(state.p_WT, fresh.site("tool_tip").xpos, atol=1e-12)
+    np.testing.assert_allclose(state.p_WT, fresh.site("tool").xpos, atol=1e-12)
     R_WT = Rotation.from_quat(np.roll(state.q_WT, -1)).as_matrix()
-    np.testing.assert_allclose(R_WT, fresh.site("tool_tip").xmat.reshape(3, 3), atol=1e-9)
+    np.testing.assert_allclose(R_WT, fresh.site("tool").xmat.reshape(3, 3), atol=1e-9)
     np.testing.assert_array_equal(state.joint_angle, plant.data.qpos[7:])
     np.testing.assert_array_equal(state.joint_rate, plant.data.qvel[6:])
     assert state.t_s == 0.2

@@ -69,7 +69,7 @@ class Slider:
         self.model = weightless(vehicle, structure)
         self.data = mujoco.MjData(self.model)
         self.solids = structure.solids
-        self._plates = Plates(self.model, self.data, structure.solids)
+        self._plates = Plates(self.model, self.data, structure.solids, vehicle.contacts)
         self._every, self._steps = every, 0
         self._ball = self.model.geom("tip").id
         self.attitude = UPRIGHT

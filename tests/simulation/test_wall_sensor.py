@@ -24,6 +24,7 @@ from inspect_cli.truth.disturbances import Disturbances
 from inspect_cli.truth.geometry import StructureTruth
 from inspect_cli.truth.proximity import Proximity
 from inspect_cli.vehicles import build_vehicle
+from inspect_cli.vehicles.actuators import rotor_radii_m
 from inspect_cli.vehicles.tilt_rotor import TiltRotor
 
 REACH, K, MASS = 0.55, 3000.0, 4.75
@@ -58,7 +59,7 @@ def plant_before(structure: StructureTruth, physics_hz: int = 1000) -> Plant:
     vehicle = vehicle_with_physics_at(physics_hz)
     model = build_world(vehicle, TruePlatform(), structure)
     model.opt.gravity[:] = 0.0
-    proximity = Proximity(CALM, structure.solids, vehicle.actuators.rotor_radius_m)
+    proximity = Proximity(CALM, structure.solids, rotor_radii_m(vehicle.actuators))
     calm = Disturbances((), np.random.default_rng(0), 250)
     lengths = vehicle.capabilities.lengths
     return Plant(model, vehicle, lengths, structure.solids, calm, proximity, 250)

@@ -22,6 +22,7 @@ from inspect_cli.truth.disturbances import Disturbances
 from inspect_cli.truth.geometry import StructureTruth, SurfaceTruth
 from inspect_cli.truth.proximity import Proximity
 from inspect_cli.vehicles import build_vehicle
+from inspect_cli.vehicles.actuators import rotor_radii_m
 from inspect_cli.vehicles.kinds import Vehicle
 
 Array = np.ndarray
@@ -60,7 +61,7 @@ def plant_of(
 ) -> Plant:
     structure = structure or structure_of([])
     model = build_world(vehicle, truth or TruePlatform(), structure)
-    radius_m = vehicle.actuators.rotor_radius_m
+    radii_m = rotor_radii_m(vehicle.actuators)
     control_hz = vehicle.platform.rates.control_hz
     return Plant(
         model,
@@ -68,7 +69,7 @@ def plant_of(
         vehicle.capabilities.lengths,
         structure.solids,
         Disturbances(disturbances, np.random.default_rng(0), control_hz),
-        Proximity(effects, structure.solids, radius_m),
+        Proximity(effects, structure.solids, radii_m),
         control_hz,
     )
 

@@ -12,7 +12,8 @@ from inspect_cli.schema.mission import (
     StructureSurface,
     SurfaceSource,
 )
-from inspect_cli.schema.tasks import ContactGrid, Task
+from inspect_cli.schema.tasks import Task
+from inspect_cli.schema.tasks.contact_grid import ContactGrid
 
 MissionOn = Callable[..., Mission]
 

@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 from inspect_cli.errors import GeometryError, InputError
-from inspect_cli.schema.tasks import Trace
+from inspect_cli.schema.tasks.trace import Trace
 from inspect_cli.spatial.arrays import Points
 from inspect_cli.structure.drawings import SAMPLE_M, Stroke, strokes_of
 

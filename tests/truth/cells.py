@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 
-from inspect_cli.schema.macro_cell import ActiveSite, MacroCellSpecimen
+from inspect_cli.schema.specimens.macro_cell import ActiveSite, MacroCellSpecimen
 from inspect_cli.truth.macro_cell.patch import Patch
 from inspect_cli.truth.macro_cell.solution import MacroCell, solve_cell
 

@@ -13,15 +13,16 @@ from meshes import graph_corners, write_mesh
 
 from inspect_cli.errors import InputError
 from inspect_cli.schema.geometry import CylinderShape, MeshShape, PlaneShape, TrueShape
-from inspect_cli.schema.macro_cell import ActiveSite
 from inspect_cli.schema.plan import PlannedSurface
+from inspect_cli.schema.specimens.macro_cell import ActiveSite
 from inspect_cli.schema.truth import TrueSurface, TruthModel
 from inspect_cli.truth import cache
-from inspect_cli.truth import specimen as specimens
 from inspect_cli.truth.geometry import true_structure
 from inspect_cli.truth.macro_cell.patch import Patch, patch_of
 from inspect_cli.truth.macro_cell.solution import solve_cell
-from inspect_cli.truth.specimen import SpecimenField, load_specimen
+from inspect_cli.truth.specimens import load_specimen
+from inspect_cli.truth.specimens import macro_cell as specimens
+from inspect_cli.truth.specimens.fields import SpecimenField
 
 PLANE = PlaneShape(center_m=(2, 0, 1.5), normal=(-1, 0, 0), size_m=(0.8, 0.8))
 PIER = CylinderShape(

@@ -10,7 +10,7 @@ import pytest
 from cells import SITE, WALL, read_along_u, solved, specimen
 
 from inspect_cli.errors import InputError
-from inspect_cli.schema.macro_cell import ActiveSite, Bars, Kinetics, MoistSpot
+from inspect_cli.schema.specimens.macro_cell import ActiveSite, Bars, Kinetics, MoistSpot
 from inspect_cli.truth.macro_cell.newton import Joint, solve_potentials
 from inspect_cli.truth.macro_cell.patch import Patch
 from inspect_cli.truth.macro_cell.solution import (

@@ -24,7 +24,7 @@ from skfem import (
 )
 from skfem.helpers import dot, grad
 
-from inspect_cli.schema.macro_cell import Bars, Kinetics
+from inspect_cli.schema.specimens.macro_cell import Bars, Kinetics
 from inspect_cli.spatial.arrays import Matrix, Vector
 from inspect_cli.truth.macro_cell.concrete import Concrete, concrete_of, outflow, solve_linear
 from inspect_cli.truth.macro_cell.mat import constriction_m, steel_share

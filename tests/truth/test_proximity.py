@@ -58,13 +58,15 @@ def gain(
     effects: dict[str, bool], shapes: list[Shape], hub_W: list[float], thrust_W: list[float]
 ) -> float:
     """The gain that one rotor's actuator gets, in arrays shaped as MuJoCo's."""
-    proximity = Proximity(ProximityEffects(**{**OFF, **effects}), Solids(primitives_of(shapes)), R)
+    proximity = Proximity(
+        ProximityEffects(**{**OFF, **effects}), Solids(primitives_of(shapes)), np.array([R])
+    )
     up = np.array(thrust_W) / np.linalg.norm(thrust_W)
     rotation, _ = Rotation.align_vectors([up], [[0.0, 0.0, 1.0]])
     site_xpos = np.array([[9.0, 9.0, 9.0], hub_W])
     site_xmat = np.array([np.eye(3).ravel(), rotation.as_matrix().ravel()])
     gains = np.ones((1, 10))
-    proximity.update(site_xpos, site_xmat, np.array([1], dtype=np.int32), gains)
+    proximity.update(site_xpos, site_xmat, np.array([1], np.int32), np.array([0], np.int32), gains)
     assert (gains[0, 1:] == 1.0).all()
     return float(gains[0, 0])
 
@@ -104,9 +106,11 @@ def test_each_effect_is_switched_on_its_own_and_all_multiply() -> None:
     everything = gain(dict.fromkeys(OFF, True), [SOFFIT, near_wall], *place)
     assert everything == pytest.approx(alone["ceiling"] * alone["wall"], rel=1e-12)
     assert gain({}, [SOFFIT, near_wall], *place) == 1.0
-    assert not Proximity(ProximityEffects(**OFF), Solids(primitives_of([])), R).any
+    assert not Proximity(ProximityEffects(**OFF), Solids(primitives_of([])), np.array([R])).any
     for name in OFF:
-        assert Proximity(ProximityEffects(**{**OFF, name: True}), Solids(primitives_of([])), R).any
+        assert Proximity(
+            ProximityEffects(**{**OFF, name: True}), Solids(primitives_of([])), np.array([R])
+        ).any
 
 
 def test_a_relief_is_a_ceiling_and_a_wall_as_a_plane_is() -> None:
@@ -114,21 +118,21 @@ def test_a_relief_is_a_ceiling_and_a_wall_as_a_plane_is() -> None:
     level = relief_of(graph_corners(lambda x, y: 3.0 + 0.0 * x), np.array([0.0, 0.0, -1.0]), 0.02)
     rectangle = PlaneShape(center_m=(0.0, 0.0, 3.0), normal=(0.0, 0.0, -1.0), size_m=(2.0, 1.6))
     effects = ProximityEffects(ground=False)
-    bare = Solids(primitives_of([]))
+    bare, radii = Solids(primitives_of([])), np.full(4, R)
     both = (
-        Proximity(effects, bare._replace(reliefs=level.row, nodes=level.nodes), R),
-        Proximity(effects, Solids(primitives_of([rectangle])), R),
+        Proximity(effects, bare._replace(reliefs=level.row, nodes=level.nodes), radii),
+        Proximity(effects, Solids(primitives_of([rectangle])), radii),
     )
     mixed = Proximity(
         effects,
         Solids(primitives_of([WALL]), level.row, level.nodes),
-        R,
+        radii,
     )
     up = np.tile(np.eye(3).ravel(), (4, 1))
     hubs = np.array([[0.1, 0.2, 2.9], [0.5, 0.0, 2.7], [1.1, 0.0, 2.95], [1.9, 0.0, 2.9]])
-    gains = np.ones((3, 4, 1))
+    rotors, gains = np.arange(4, dtype=np.int32), np.ones((3, 4, 1))
     for proximity, gain in zip((*both, mixed), gains, strict=True):
-        proximity.update(hubs, up, np.arange(4, dtype=np.int32), gain)
+        proximity.update(hubs, up, rotors, rotors, gain)
     np.testing.assert_allclose(gains[0], gains[1], atol=2e-5)  # beside it to the nearest node
     assert gains[0, 0] == pytest.approx(ceiling_factor(0.1, R) * wall_factor(0.1, R), rel=1e-6)
     assert gains[2, 0] == pytest.approx(gains[0, 0])

@@ -7,10 +7,11 @@ import pytest
 
 from inspect_cli.schema.geometry import Displacement, PlaneShape, SphereShape
 from inspect_cli.schema.plan import PlannedSurface
-from inspect_cli.schema.truth import AnalyticSpecimen, AnalyticSpot, TrueSurface, TruthModel
+from inspect_cli.schema.specimens import AnalyticSpecimen, AnalyticSpot
+from inspect_cli.schema.truth import TrueSurface, TruthModel
 from inspect_cli.truth.geometry import true_structure
 from inspect_cli.truth.rasters import MOST_ALONG, MOST_CELLS, Beneath, all_beneath, true_rasters
-from inspect_cli.truth.specimen import load_specimen
+from inspect_cli.truth.specimens import load_specimen
 
 SPECIMEN = AnalyticSpecimen(
     model="analytic",

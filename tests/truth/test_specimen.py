@@ -9,8 +9,8 @@ import pytest
 from scipy.interpolate import RegularGridInterpolator
 
 from inspect_cli.errors import InputError
-from inspect_cli.schema.truth import AnalyticSpecimen, AnalyticSpot, GridSpecimen
-from inspect_cli.truth.specimen import load_specimen
+from inspect_cli.schema.specimens import AnalyticSpecimen, AnalyticSpot, GridSpecimen
+from inspect_cli.truth.specimens import load_specimen
 
 POTENTIAL = "row,A,B,C\n1,-100,-200,-300\n2,-110,-210,-310\n"
 RESISTIVITY = "10\t20\t30\n11\t21\t31\n"

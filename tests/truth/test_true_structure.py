@@ -18,7 +18,8 @@ from inspect_cli.schema.geometry import (
     SphereShape,
 )
 from inspect_cli.schema.plan import PlannedSurface
-from inspect_cli.schema.truth import AnalyticSpecimen, AnalyticSpot, TrueSurface, TruthModel
+from inspect_cli.schema.specimens import AnalyticSpecimen, AnalyticSpot
+from inspect_cli.schema.truth import TrueSurface, TruthModel
 from inspect_cli.truth.contact import ContactTruth
 from inspect_cli.truth.geometry import StructureTruth, true_structure
 

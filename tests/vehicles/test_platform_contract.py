@@ -10,10 +10,14 @@ import pytest
 from scipy.spatial.transform import Rotation
 
 from inspect_cli.errors import InputError
-from inspect_cli.interfaces import Posture
+from inspect_cli.interfaces import FramePose, Posture
 from inspect_cli.records import Pose
 from inspect_cli.schema.loading import load_platform
 from inspect_cli.schema.plan import Plan, PostureModel
+from inspect_cli.schema.truth import TruePlatform
+from inspect_cli.simulation.addresses import addresses_of
+from inspect_cli.simulation.world import build_world
+from inspect_cli.truth.geometry import structure_of
 from inspect_cli.vehicles import build_vehicle
 from inspect_cli.vehicles.kinds import Vehicle
 
@@ -40,22 +44,23 @@ def random_posture(vehicle: Vehicle, rng: np.random.Generator) -> Posture:
 def test_bodies_and_actuators_stand_where_the_plant_looks(
     vehicle: Vehicle, model: mujoco.MjModel
 ) -> None:
-    lengths = vehicle.capabilities.lengths
-    assert model.body(1).name == "core"
-    assert model.jnt_type[0] == mujoco.mjtJoint.mjJNT_FREE
-    core = model.body("core").id
-    for name in ("shell", "gear", "tool"):
+    lengths, bodies = vehicle.capabilities.lengths, vehicle.bodies
+    addresses_of(build_world(vehicle, TruePlatform(), structure_of([])), vehicle, lengths)
+    core = model.body(bodies.base).id
+    assert core == 1
+    for name in (*bodies.protected, *bodies.gear):
         assert model.body(name).rootid[0] == core
-    assert model.geom("tip").bodyid[0] == model.body("tool").id
+    for contact in vehicle.contacts:
+        for name in contact.geoms:
+            assert model.geom(name).conaffinity[0]
     assert model.nu == model.na == lengths["n_rotors"] + lengths["n_joints"]
     assert model.nv == 6 + lengths["n_joints"]
     transmissions = model.actuator_trntype
     assert (transmissions[: lengths["n_rotors"]] == mujoco.mjtTrn.mjTRN_SITE).all()
     joints = model.actuator_trnid[lengths["n_rotors"] :, 0]
     np.testing.assert_array_equal(joints, 1 + np.arange(lengths["n_joints"]))
-    assert vehicle.actuators.time_up_s.shape == (lengths["n_rotors"],)
-    assert vehicle.actuators.time_down_s.shape == (lengths["n_rotors"],)
-    assert vehicle.actuators.joint_rate_radps.shape == (lengths["n_joints"],)
+    for actuator in vehicle.actuators:
+        assert all(value > 0.0 for name, value in vars(actuator).items() if name.endswith("_s"))
 
 
 def test_gravity_is_the_one_that_estimation_assumes(model: mujoco.MjModel) -> None:
@@ -68,11 +73,11 @@ def test_the_tool_is_where_the_model_has_it(vehicle: Vehicle, model: mujoco.MjMo
         posture = random_posture(vehicle, rng)
         data.qpos[:3], data.qpos[3:7] = posture.p_WB, posture.q_WB
         data.qpos[7:] = rng.uniform(-1.0, 1.0, model.nq - 7)
-        if posture.arm_angle.size:
-            data.qpos[-posture.arm_angle.size :] = posture.arm_angle
+        if posture.joint_angle.size:
+            data.qpos[-posture.joint_angle.size :] = posture.joint_angle
         mujoco.mj_kinematics(model, data)
-        p_WT, R_WT = vehicle.capabilities.tool_pose(posture)
-        site = data.site("tool_tip")
+        p_WT, R_WT = vehicle.capabilities.frame_pose(posture, "tool")
+        site = data.site("tool")
         np.testing.assert_allclose(p_WT, site.xpos, atol=1e-9)
         np.testing.assert_allclose(R_WT, site.xmat.reshape(3, 3), atol=1e-9)
         # The tip's sphere ends in the site, on the tool's axis.
@@ -85,10 +90,10 @@ def test_a_posture_for_a_tool_puts_it_there(vehicle: Vehicle) -> None:
     rng = np.random.default_rng(2)
     for _ in range(20):
         wanted = random_posture(vehicle, rng)
-        p_WT, R_WT = vehicle.capabilities.tool_pose(wanted)
-        found = vehicle.capabilities.posture_for_tool(p_WT, R_WT, wanted)
-        assert found is not None
-        p, R = vehicle.capabilities.tool_pose(found)
+        p_WT, R_WT = vehicle.capabilities.frame_pose(wanted, "tool")
+        found = vehicle.capabilities.solve({"tool": FramePose(p_WT, R_WT)}, {}, wanted)
+        assert isinstance(found, Posture)
+        p, R = vehicle.capabilities.frame_pose(found, "tool")
         np.testing.assert_allclose(p, p_WT, atol=1e-6)
         np.testing.assert_allclose(R, R_WT, atol=1e-6)
 

@@ -9,7 +9,8 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
-from inspect_cli.interfaces import Posture
+from inspect_cli.interfaces import DepthLaw, FramePose, Posture, Shortfall
+from inspect_cli.schema.tasks.base import Pressing
 from inspect_cli.schema.vehicle import TiltRotorPlatform
 from inspect_cli.vehicles import build_vehicle
 from inspect_cli.vehicles.fully_actuated.rigid_body import nominal_body
@@ -75,8 +76,11 @@ def test_the_arms_angle_counts_from_straight_down(
 def test_press_force_of_the_contact_profile(pitched: Pitched, pitch_deg: float) -> None:
     capabilities = build_vehicle(pitched(pitch_deg)).capabilities
     # The stiffness is the same along all axes: 0.25 · 72 N/m · 0.10 m whatever the arm's angle.
-    assert capabilities.press_force(0.10, "contact_ndt") == pytest.approx(1.8, rel=1e-9)
-    assert capabilities.press_force(0.05, "contact_ndt") == pytest.approx(0.9, rel=1e-9)
+    for press_m, force_n in ((0.10, 1.8), (0.05, 0.9)):
+        law = capabilities.contact_law(Pressing(press_m=press_m), "contact_ndt")
+        assert isinstance(law, DepthLaw)
+        assert (law.depth_m, law.profile) == (press_m, "contact_ndt")
+        assert law.expected_force_n == pytest.approx(force_n, rel=1e-9)
 
 
 class Statics:
@@ -106,7 +110,7 @@ class Statics:
         data.qpos[:3], data.qpos[3:7] = posture.p_WB, posture.q_WB
         mujoco.mj_forward(model, data)
         pushed = np.zeros(model.nv)
-        tip, body = data.site("tool_tip").xpos, model.body("tool").id
+        tip, body = data.site("tool").xpos, model.body("tool").id
         mujoco.mj_applyFT(model, data, wrench_W[:3], wrench_W[3:], tip, body, pushed)
         needed = data.qfrc_bias[:6] - pushed[:6]
         R = data.body("core").xmat.reshape(3, 3)
@@ -134,20 +138,40 @@ def test_margins_are_what_statics_leaves(pitched: Pitched, pitch_deg: float) -> 
     for posture in postures(30):
         wrench_W = rng.normal(size=6) * [5.0, 5.0, 5.0, 0.3, 0.3, 0.3]
         thrusts, tilts = statics.groups(posture, wrench_W)
-        margins = free.margins(posture, wrench_W)
-        assert margins.thrust_n == pytest.approx(LIMIT_N - thrusts.max(), abs=1e-6)
-        assert margins.tilt_rad == np.inf
+        loads = {"tool": wrench_W}
+        margins = free.margins(posture, loads)
+        assert margins["thrust"].value == pytest.approx(LIMIT_N - thrusts.max(), abs=1e-6)
+        assert set(margins) == {"thrust"}
         left = np.radians(170.0) - np.abs(tilts).max()
-        assert stopped.margins(posture, wrench_W).tilt_rad == pytest.approx(left, abs=1e-6)
+        tilt = stopped.margins(posture, loads)["tilt"]
+        assert (tilt.value, tilt.unit) == (pytest.approx(left, abs=1e-6), "rad")
 
 
 def test_too_much_is_not_feasible(pitched: Pitched) -> None:
     capabilities = build_vehicle(pitched(90.0)).capabilities
     level = Posture(np.zeros(3), np.array([1.0, 0.0, 0.0, 0.0]))
-    assert capabilities.margins(level, np.zeros(6)).feasible
+    assert capabilities.margins(level, {})["thrust"].holds
     # Six groups of 20 N cannot push 120 N forward beside carrying the weight.
     pushed_back = np.array([-120.0, 0.0, 0.0, 0.0, 0.0, 0.0])
-    assert not capabilities.margins(level, pushed_back).feasible
+    margin = capabilities.margins(level, {"tool": pushed_back})["thrust"]
+    assert not margin.holds
+    assert margin.lack == f"asks for {-margin.value:.2f} N more than a rotor group can give"
+
+
+def test_a_frame_or_a_goal_that_is_not_there_is_refused(pitched: Pitched) -> None:
+    capabilities = build_vehicle(pitched(90.0)).capabilities
+    level = Posture(np.zeros(3), np.array([1.0, 0.0, 0.0, 0.0]))
+    with pytest.raises(ValueError, match="'foot'; there are: body, tool"):
+        capabilities.frame_pose(level, "foot")
+    goals = {name: FramePose(*capabilities.frame_pose(level, name)) for name in ("body", "tool")}
+    both = capabilities.solve(goals, {}, level)
+    assert isinstance(both, Shortfall)
+    assert not both
+    assert "one frame" in both.reason
+    for name, goal in goals.items():
+        found = capabilities.solve({name: goal}, {}, level)
+        assert isinstance(found, Posture)
+        np.testing.assert_allclose(found.p_WB, level.p_WB, atol=1e-12)
 
 
 def test_hover_power_by_momentum_theory(pitched: Pitched) -> None:
@@ -158,7 +182,7 @@ def test_hover_power_by_momentum_theory(pitched: Pitched) -> None:
         induced_speed = np.sqrt(rotor / (2.0 * 1.225 * np.pi * platform.rotor.radius_m**2))
         power = (rotor @ induced_speed) / platform.battery.figure_of_merit
         power += platform.battery.avionics_w
-        assert capabilities.hover_power_w(posture) == pytest.approx(power, rel=1e-6)
+        assert capabilities.power_w(posture, {}) == pytest.approx(power, rel=1e-6)
 
 
 def test_the_spheres_cover_core_rotors_and_arm_but_not_the_tip(pitched: Pitched) -> None:

@@ -16,11 +16,12 @@ from inspect_cli.reporting.words.text import (
     together,
 )
 from inspect_cli.schema.plan import Plan
+from inspect_cli.schema.vehicle import HalfCellModel
 
 
 def reading_method(log: RunLog, plan: Plan) -> Facts:
     """How the readings were taken, in the order of an inspection report."""
-    probe = log.platform().sensors.half_cell
+    probe = log.platform().sensor(HalfCellModel)
     pressed = [target for target in plan.targets if target.kind == "contact"]
     force = number(max((t.expected_force_n for t in pressed), default=None), 2)
     counts = say(

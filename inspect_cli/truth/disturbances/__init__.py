@@ -1,32 +1,45 @@
-"""Forces and torques that act on the vehicle without its knowledge, one model a file."""
+"""Forces and torques that act on the vehicle without its knowledge: one file and one row per kind.
+
+A package outside this one adds a kind as an entry point of the group ``inspect_cli.loads``, under
+the name that its model has in ``inspect_cli.disturbances``.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
+from typing import Any
 
 import numpy as np
 
-from inspect_cli.schema.disturbances import ConstantWrench, Disturbance, Rope, Wind
-from inspect_cli.truth.disturbances.cable import CableLoad
-from inspect_cli.truth.disturbances.constant import ConstantLoad
-from inspect_cli.truth.disturbances.load import Load, Model, Motion
-from inspect_cli.truth.disturbances.rope import RopeLoad
-from inspect_cli.truth.disturbances.wind import WindLoad
+from inspect_cli.errors import EnvironmentFault
+from inspect_cli.plugins import registered
+from inspect_cli.schema.disturbances import DisturbanceModel
+from inspect_cli.truth.disturbances.cable import cable_load
+from inspect_cli.truth.disturbances.constant import constant_load
+from inspect_cli.truth.disturbances.load import Circumstances, Load, Model, Motion
+from inspect_cli.truth.disturbances.rope import rope_load
+from inspect_cli.truth.disturbances.wind import wind_load
 
-__all__ = ["Disturbances", "Load", "Motion"]
+__all__ = ["LOADS", "Disturbances", "Load", "Motion"]
+
+LOADS: dict[str, Callable[[Any, Circumstances], Model]] = registered(
+    "inspect_cli.loads",
+    {"constant": constant_load, "rope": rope_load, "wind": wind_load, "cable": cable_load},
+)
 
 
 class Disturbances:
     """The sum of a mission's disturbances.
 
-    ``rng`` makes the gusts; ``control_hz`` is how often ``act`` is called.
+    ``rng`` makes what is left to chance, such as gusts; ``control_hz`` is how often ``act`` is
+    called.
     """
 
     def __init__(
-        self, entries: Sequence[Disturbance], rng: np.random.Generator, control_hz: int
+        self, entries: Sequence[DisturbanceModel], rng: np.random.Generator, control_hz: int
     ) -> None:
-        numbers = _pull_numbers(entries)
-        self._models = [_model(entry, numbers, rng, control_hz) for entry in entries]
+        around = Circumstances(tuple(entries), rng, 1.0 / control_hz)
+        self._models = [_load(entry, around) for entry in entries]
         self.load = Load()
 
     @property
@@ -42,20 +55,10 @@ class Disturbances:
         return self.load
 
 
-def _pull_numbers(entries: Sequence[Disturbance]) -> dict[float, int]:
-    """The number of every pull of the flight by its start, in order of time from 1 on."""
-    ropes = [entry for entry in entries if isinstance(entry, Rope)]
-    starts = sorted(pull.start_s for rope in ropes for pull in rope.pulls)
-    return {start_s: number for number, start_s in enumerate(starts, start=1)}
-
-
-def _model(
-    entry: Disturbance, numbers: dict[float, int], rng: np.random.Generator, control_hz: int
-) -> Model:
-    if isinstance(entry, ConstantWrench):
-        return ConstantLoad(entry)
-    if isinstance(entry, Rope):
-        return RopeLoad(entry, tuple(numbers[pull.start_s] for pull in entry.pulls))
-    if isinstance(entry, Wind):
-        return WindLoad(entry, 1.0 / control_hz, rng)
-    return CableLoad(entry)
+def _load(entry: DisturbanceModel, around: Circumstances) -> Model:
+    if entry.kind not in LOADS:
+        raise EnvironmentFault(
+            f"nothing simulates a disturbance of kind {entry.kind}",
+            hint=f"kinds that are simulated: {', '.join(LOADS)}",
+        )
+    return LOADS[entry.kind](entry, around)

@@ -31,7 +31,7 @@ from inspect_cli.compiled import kernel
 from inspect_cli.schema.disturbances import Cable
 from inspect_cli.spatial.arrays import Vector
 from inspect_cli.spatial.constants import GRAVITY_MPS2
-from inspect_cli.truth.disturbances.load import Load, Motion
+from inspect_cli.truth.disturbances.load import Circumstances, Load, Motion
 
 BISECTIONS = 60
 """Of an unknown that spans some thirty powers of e: to a part in 10¹⁴."""
@@ -117,3 +117,8 @@ class CableLoad:
         carried = load.force_tip_W if at_tool else load.force_W
         carried += force_W
         load.record.f_cable_W += force_W
+
+
+def cable_load(entry: Cable, _: Circumstances) -> CableLoad:
+    """The load of one entry."""
+    return CableLoad(entry)

@@ -6,7 +6,7 @@ import numpy as np
 
 from inspect_cli.schema.disturbances import ConstantWrench
 from inspect_cli.spatial.rotations import rotate, rotate_back
-from inspect_cli.truth.disturbances.load import Load, Motion, ramp
+from inspect_cli.truth.disturbances.load import Circumstances, Load, Motion, ramp
 
 
 class ConstantLoad:
@@ -26,3 +26,8 @@ class ConstantLoad:
             force = rotate(motion.q_WB, force)
         load.force_W += share * force
         load.torque_B += share * torque
+
+
+def constant_load(entry: ConstantWrench, _: Circumstances) -> ConstantLoad:
+    """The load of one entry."""
+    return ConstantLoad(entry)

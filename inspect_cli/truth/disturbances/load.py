@@ -1,13 +1,26 @@
-"""What a disturbance sees of the vehicle, what it does to it, and the shape of every model."""
+"""What a disturbance is built from, what it sees of the vehicle and what it does to it."""
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from typing import NamedTuple, Protocol
 
 import numpy as np
 
 from inspect_cli.records import TrueDisturbance
+from inspect_cli.schema.disturbances import DisturbanceModel
 from inspect_cli.spatial.arrays import Vector
+
+
+@dataclass(frozen=True)
+class Circumstances:
+    """What a disturbance is built from besides its own entry."""
+
+    entries: tuple[DisturbanceModel, ...]
+    """All of the mission's disturbances."""
+    rng: np.random.Generator
+    step_s: float
+    """Between two calls of ``act``."""
 
 
 class Motion(NamedTuple):

@@ -21,7 +21,7 @@ from inspect_cli.compiled import kernel
 from inspect_cli.schema.disturbances import Pull, Rope
 from inspect_cli.spatial.arrays import Vector
 from inspect_cli.spatial.rotations import rotate
-from inspect_cli.truth.disturbances.load import Load, Motion
+from inspect_cli.truth.disturbances.load import Circumstances, Load, Motion
 
 
 @kernel
@@ -80,3 +80,10 @@ class RopeLoad:
         load.force_tip_W += force_W
         load.record.f_rope_W += force_W
         load.record.pull = self._begun
+
+
+def rope_load(entry: Rope, around: Circumstances) -> RopeLoad:
+    """The load of one entry; pulls are counted in order of time over all ropes of the mission."""
+    ropes = [other for other in around.entries if isinstance(other, Rope)]
+    starts = sorted(pull.start_s for rope in ropes for pull in rope.pulls)
+    return RopeLoad(entry, tuple(1 + starts.index(pull.start_s) for pull in entry.pulls))

@@ -18,7 +18,7 @@ from inspect_cli.spatial.arrays import Matrix, Vector
 from inspect_cli.spatial.constants import AIR_DENSITY_KGPM3
 from inspect_cli.spatial.rotations import rotate, rotate_back
 from inspect_cli.truth.disturbances.dryden import Turbulence, scales
-from inspect_cli.truth.disturbances.load import Load, Motion, ramp
+from inspect_cli.truth.disturbances.load import Circumstances, Load, Motion, ramp
 
 
 @kernel
@@ -53,3 +53,8 @@ class WindLoad:
         if share > 0.0:
             load.force_W += drag(wind_W, motion.v_WB_W, motion.q_WB, self._area_m2)
             load.record.wind_W = wind_W
+
+
+def wind_load(entry: Wind, around: Circumstances) -> WindLoad:
+    """The load of one entry."""
+    return WindLoad(entry, around.step_s, around.rng)

@@ -25,7 +25,7 @@ from __future__ import annotations
 
 import math
 
-from inspect_cli.schema.macro_cell import Bars
+from inspect_cli.schema.specimens.macro_cell import Bars
 
 
 def steel_share(bars: Bars) -> float:

@@ -23,7 +23,7 @@ import numpy as np
 
 from inspect_cli.assessment.electrodes import COEFFICIENT_V_PER_C, STANDARD_C
 from inspect_cli.errors import InputError
-from inspect_cli.schema.macro_cell import (
+from inspect_cli.schema.specimens.macro_cell import (
     LEAST_OHM_M,
     MOST_OHM_M,
     ActiveSite,

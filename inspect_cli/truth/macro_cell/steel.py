@@ -20,7 +20,7 @@ from typing import Final
 
 import numpy as np
 
-from inspect_cli.schema.macro_cell import Kinetics
+from inspect_cli.schema.specimens.macro_cell import Kinetics
 from inspect_cli.spatial.arrays import Matrix
 
 DECADES: Final = 100.0

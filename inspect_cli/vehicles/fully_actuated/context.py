@@ -9,9 +9,9 @@ import numpy as np
 from inspect_cli.autonomy.context import Context, Judges
 from inspect_cli.autonomy.modes import Mode, Order
 from inspect_cli.autonomy.protocols import Guidance, GuidedStack
-from inspect_cli.autonomy.timing import PAUSE_S
 from inspect_cli.compiled import kernel
 from inspect_cli.records import Estimate, Pose, Record, Reference, SurfaceEstimate
+from inspect_cli.schema.flight_times import PAUSE_S
 from inspect_cli.schema.modes import Phase
 from inspect_cli.schema.plan import Plan
 from inspect_cli.spatial.arrays import Structured, Vector

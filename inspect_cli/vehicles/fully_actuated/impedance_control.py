@@ -17,10 +17,10 @@ import numpy as np
 from inspect_cli.control.impedance import ImpedanceController, RigidBody
 from inspect_cli.estimation.error_state import ErrorStateFilter
 from inspect_cli.estimation.wrench_observer import WrenchObserver
-from inspect_cli.interfaces import Capabilities, at_origin
+from inspect_cli.interfaces import TOOL, Capabilities, at_origin
 from inspect_cli.records import Command, Estimate, Imu, Pose, Reference
 from inspect_cli.schema.positioning import Estimation
-from inspect_cli.schema.vehicle import PlatformBase
+from inspect_cli.schema.vehicle import ImpedancePlatform, ImuModel
 from inspect_cli.spatial.arrays import Vector
 
 
@@ -37,7 +37,7 @@ class ImpedanceControl:
 
     def __init__(
         self,
-        platform: PlatformBase,
+        platform: ImpedancePlatform,
         capabilities: Capabilities,
         body: RigidBody,
         allocation: Allocation,
@@ -46,8 +46,8 @@ class ImpedanceControl:
         rates, control = platform.rates, platform.control
         self.estimate = Estimate.create()
         self.command = Command.create(capabilities.lengths)
-        noise, pose_hz = platform.positioning(estimation)
-        self._filter = ErrorStateFilter(platform.sensors.imu, noise, rates.imu_hz, pose_hz)
+        imu, pose = platform.sensor(ImuModel), platform.pose_source(estimation)
+        self._filter = ErrorStateFilter(imu, pose, imu.rate_hz, pose.rate_hz)
         self._observer = WrenchObserver(
             body.mass_kg,
             body.inertia_B,
@@ -58,7 +58,7 @@ class ImpedanceControl:
         self._capabilities = capabilities
         angles, n_arm = self.command.joint_angle, capabilities.lengths.get("n_arm", 0)
         self._arm_angle = angles[len(angles) - n_arm :]
-        _, R_BT = capabilities.tool_pose(at_origin(self._arm_angle))
+        _, R_BT = capabilities.frame_pose(at_origin(self._arm_angle), TOOL)
         self._impedance = ImpedanceController(body, control, R_BT, rates.control_hz)
         self._allocation = allocation
         self._flying = False
@@ -94,7 +94,7 @@ class ImpedanceControl:
         if np.array_equal(self._arm_angle, arm_angle):
             return
         self._arm_angle[:] = arm_angle
-        _, R_BT = self._capabilities.tool_pose(at_origin(arm_angle))
+        _, R_BT = self._capabilities.frame_pose(at_origin(arm_angle), TOOL)
         self._impedance.turn_tool(R_BT)
 
     def _idle(self) -> None:

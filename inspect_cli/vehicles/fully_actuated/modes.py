@@ -11,14 +11,15 @@ guidance's, how to hold it is the controller's, which never learns of modes.
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 
 import numpy as np
 
 from inspect_cli.autonomy.context import Judges
 from inspect_cli.autonomy.modes import Mode, Order, by_name
 from inspect_cli.autonomy.protocols import GuidedStack
-from inspect_cli.autonomy.timing import PAUSE_S
 from inspect_cli.interfaces import Posture
+from inspect_cli.schema.flight_times import PAUSE_S
 from inspect_cli.schema.modes import Phase
 from inspect_cli.schema.plan import Plan, Target
 from inspect_cli.vehicles.fully_actuated.context import ContactContext
@@ -66,7 +67,7 @@ def context_of(plan: Plan, stack: GuidedStack, judges: Judges) -> ContactContext
 
 def _lower(posture: Posture, by_m: float) -> Posture:
     down = np.array([0.0, 0.0, by_m])
-    return Posture(posture.p_WB - down, posture.q_WB, posture.arm_angle)
+    return replace(posture, p_WB=posture.p_WB - down)
 
 
 def _has_something_to_leave(context: ContactContext) -> bool:

@@ -10,17 +10,15 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
-import numpy as np
-
 from inspect_cli.guidance.local_surface import LocalSurface
 from inspect_cli.guidance.pursuit import Pursuit
-from inspect_cli.interfaces import Capabilities, DepthImage, Posture
-from inspect_cli.records import Imu, Pose, Record, SurfaceEstimate
+from inspect_cli.interfaces import TOOL, Capabilities, Posture
+from inspect_cli.records import DepthImage, Imu, Pose, Record, SurfaceEstimate
 from inspect_cli.schema.plan import Plan
 from inspect_cli.schema.primitives import primitive_of
-from inspect_cli.schema.vehicle import PlatformBase
+from inspect_cli.schema.vehicle import DepthCameraModel, PlatformBase
 from inspect_cli.spatial.arrays import Matrix, Vector
-from inspect_cli.spatial.rotations import rotate
+from inspect_cli.spatial.mounting import Mounting
 from inspect_cli.vehicles.fully_actuated.impedance_control import ImpedanceControl
 
 
@@ -43,8 +41,9 @@ class FullyActuatedStack:
         self.surface = SurfaceEstimate.create()
         self._controller = controller
         self._capabilities = capabilities
-        self._p_BD = np.array(platform.sensors.tof.position_B_m)
-        self._local_surface = LocalSurface(platform.sensors.tof)
+        camera = platform.sensor(DepthCameraModel)
+        self._mounting = Mounting(camera.mount)
+        self._local_surface = LocalSurface(camera)
 
     def start(self, pose: Pose) -> None:
         """Begin at rest at a measured pose."""
@@ -78,21 +77,23 @@ class FullyActuatedStack:
         self._controller.update(self.reference, self.armed)
 
     def believed(self, frame: str) -> tuple[Vector, Matrix]:
-        """(p, R) in W of ``tool`` or of the depth camera ``tof``, whose axes are the tool's.
+        """(p, R) in W of ``tool``, or of the depth camera by any other name.
 
         By the estimate, with the arm where it was asked to be.
         """
         estimate, arm_angle = self.estimate, self.reference.arm_angle
         posture = Posture(estimate.p_WB, estimate.q_WB, arm_angle)
-        p_WT, R_WT = self._capabilities.tool_pose(posture)
+        p_WT, R_WT = self._capabilities.frame_pose(posture, TOOL)
         if frame == "tool":
             return p_WT, R_WT
-        return estimate.p_WB + rotate(estimate.q_WB, self._p_BD), R_WT
+        return self._mounting.pose(estimate.p_WB, estimate.q_WB, p_WT, R_WT)
 
     def _see(self, image: DepthImage) -> SurfaceEstimate:
         """The surface that a depth image shows; one record, overwritten with each image."""
-        p_WD, _ = self.believed("tof")
         p_WT, R_WT = self.believed("tool")
-        self._local_surface.update(image.points_D, p_WD, p_WT, R_WT, self.surface)
+        estimate, points_D = self.estimate, image.points_D
+        p_WD, R_WD = self._mounting.pose(estimate.p_WB, estimate.q_WB, p_WT, R_WT)
+        along_T = points_D if R_WD is R_WT else points_D @ (R_WT.T @ R_WD).T
+        self._local_surface.update(along_T, p_WD, p_WT, R_WT, self.surface)
         self.surface.t_s = image.t_s
         return self.surface

@@ -6,17 +6,19 @@ import mujoco
 import numpy as np
 
 from inspect_cli.control.tilt_allocation import TiltAllocation
-from inspect_cli.interfaces import FlightStack
+from inspect_cli.interfaces import TOOL, FlightStack
 from inspect_cli.schema.plan import Plan
 from inspect_cli.schema.positioning import Estimation
 from inspect_cli.schema.vehicle import TiltRotorPlatform
+from inspect_cli.vehicles.actuators import Servo, of_kind
+from inspect_cli.vehicles.contacts import PointContact
 from inspect_cli.vehicles.fully_actuated import BEHAVIOUR
 from inspect_cli.vehicles.fully_actuated.impedance_control import ImpedanceControl
 from inspect_cli.vehicles.fully_actuated.rigid_body import nominal_body
 from inspect_cli.vehicles.fully_actuated.stack import FullyActuatedStack
-from inspect_cli.vehicles.kinds import Actuators, Tip
+from inspect_cli.vehicles.kinds import Bodies
 from inspect_cli.vehicles.tilt_rotor.capabilities import TiltRotorCapabilities
-from inspect_cli.vehicles.tilt_rotor.model import build_spec, group_kappa_m
+from inspect_cli.vehicles.tilt_rotor.model import actuators_of, build_spec, group_kappa_m
 
 
 class TiltRotor:
@@ -26,15 +28,15 @@ class TiltRotor:
 
     def __init__(self, platform: TiltRotorPlatform) -> None:
         self.platform = platform
-        n = len(platform.groups)
-        rotor, unit, tool = platform.rotor, platform.unit, platform.tool
-        self.actuators = Actuators(
-            time_up_s=np.full(2 * n, rotor.time_up_s),
-            time_down_s=np.full(2 * n, rotor.time_down_s),
-            joint_rate_radps=np.full(n, unit.servo_rate_radps),
-            rotor_radius_m=rotor.radius_m,
+        tool = platform.tool
+        self.bodies = Bodies()
+        self.frames = (TOOL,)
+        self.contacts = (
+            PointContact("tip", ("tip",), TOOL, tool.tip_stiffness_npm, tool.tip_damping_ratio),
         )
-        self.tip = Tip(tool.tip_radius_m, tool.tip_stiffness_npm, tool.tip_damping_ratio)
+        self.actuators = actuators_of(platform)
+        self.joints = tuple(servo.joint for servo in of_kind(self.actuators, Servo))
+        self.posture_joints: tuple[str, ...] = ()
         self._body = nominal_body(build_spec(platform))
         self.capabilities = TiltRotorCapabilities(platform, self._body, self._allocation())
 

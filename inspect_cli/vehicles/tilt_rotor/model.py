@@ -1,6 +1,6 @@
 """The nominal MuJoCo model of a tilt-rotor vehicle, built from its platform's numbers.
 
-Rotors push along their site's z and react about it: gear (0, 0, 1, 0, 0, −σ k_m). Their thrust
+Rotors push along their site's z and react about it with −σ k_m per newton. Their thrust
 follows the command with a first-order lag; for small changes of speed that is the lag of the
 speed itself, since δT = 2 k_f ω δω. Tilt joints are position servos behind a first-order lag
 with a torque limit; the plant limits the rate of their set-points.
@@ -11,10 +11,12 @@ from __future__ import annotations
 import mujoco
 import numpy as np
 
+from inspect_cli.interfaces import TOOL
 from inspect_cli.schema.vehicle import TiltArm, TiltRotorPlatform
 from inspect_cli.spatial.arrays import Matrix, Vector
 from inspect_cli.spatial.constants import GRAVITY_MPS2
 from inspect_cli.spatial.rotations import matrix_to_quaternion
+from inspect_cli.vehicles.actuators import Actuator, Rotor, Servo, add_actuators
 
 SERVO_RADPS = 120.0
 """Natural frequency of the tilt servo's inner loop; well above the lag that is stated."""
@@ -60,7 +62,7 @@ def build_spec(platform: TiltRotorPlatform) -> mujoco.MjSpec:
     _add_tool(core, platform)
     for index, group in enumerate(platform.groups):
         _add_group(core, platform, index, group)
-    _add_actuators(spec, platform)
+    add_actuators(spec, actuators_of(platform))
     return spec
 
 
@@ -138,7 +140,7 @@ def _add_tool(core: mujoco.MjsBody, platform: TiltRotorPlatform) -> None:
         contype=0,
         conaffinity=0,
     )
-    body.add_site(name="tool_tip", pos=[0.0, 0.0, tool.length_m])
+    body.add_site(name=TOOL, pos=[0.0, 0.0, tool.length_m])
 
 
 def _add_group(
@@ -178,36 +180,33 @@ def _group_inertia(platform: TiltRotorPlatform) -> tuple[float, float, float]:
     return (0.25 * disc + offset + motor, 0.25 * disc + offset + motor, 0.5 * disc + motor)
 
 
-def _add_actuators(spec: mujoco.MjSpec, platform: TiltRotorPlatform) -> None:
+def actuators_of(platform: TiltRotorPlatform) -> tuple[Actuator, ...]:
+    """Upper and lower rotor of each group, then the tilts' servos."""
     unit, rotor = platform.unit, platform.rotor
     constants = {"upper": unit.moment_constant_upper_m, "lower": -unit.moment_constant_lower_m}
-    for index, group in enumerate(platform.groups):
-        for name, moment in constants.items():
-            spec.add_actuator(
-                name=f"rotor_{index}_{name}",
-                trntype=mujoco.mjtTrn.mjTRN_SITE,
-                target=f"rotor_{index}_{name}",
-                gear=[0.0, 0.0, 1.0, 0.0, 0.0, -spin_sign(group) * moment],
-                dyntype=mujoco.mjtDyn.mjDYN_FILTEREXACT,
-                dynprm=[rotor.time_up_s] + [0.0] * 9,
-                gaintype=mujoco.mjtGain.mjGAIN_FIXED,
-                gainprm=[1.0] + [0.0] * 9,
-                ctrllimited=True,
-                ctrlrange=[0.0, unit.max_thrust_n],
-            )
-    inertia = _group_inertia(platform)[0] + SERVO_ARMATURE_KGM2
-    stiffness, damping = inertia * SERVO_RADPS**2, 2.0 * inertia * SERVO_RADPS
-    for index in range(len(platform.groups)):
-        spec.add_actuator(
-            name=f"tilt_{index}",
-            trntype=mujoco.mjtTrn.mjTRN_JOINT,
-            target=f"tilt_{index}",
-            dyntype=mujoco.mjtDyn.mjDYN_FILTEREXACT,
-            dynprm=[unit.servo_lag_s] + [0.0] * 9,
-            gaintype=mujoco.mjtGain.mjGAIN_FIXED,
-            gainprm=[stiffness] + [0.0] * 9,
-            biastype=mujoco.mjtBias.mjBIAS_AFFINE,
-            biasprm=[0.0, -stiffness, -damping] + [0.0] * 7,
-            forcelimited=True,
-            forcerange=[-unit.servo_torque_nm, unit.servo_torque_nm],
+    rotors = [
+        Rotor(
+            name=f"rotor_{index}_{name}",
+            radius_m=rotor.radius_m,
+            max_thrust_n=unit.max_thrust_n,
+            moment_m=-spin_sign(group) * moment,
+            time_up_s=rotor.time_up_s,
+            time_down_s=rotor.time_down_s,
         )
+        for index, group in enumerate(platform.groups)
+        for name, moment in constants.items()
+    ]
+    inertia = _group_inertia(platform)[0] + SERVO_ARMATURE_KGM2
+    servos = [
+        Servo(
+            name=f"tilt_{index}",
+            joint=f"tilt_{index}",
+            lag_s=unit.servo_lag_s,
+            rate_radps=unit.servo_rate_radps,
+            torque_nm=unit.servo_torque_nm,
+            stiffness_nmprad=inertia * SERVO_RADPS**2,
+            damping_nmsprad=2.0 * inertia * SERVO_RADPS,
+        )
+        for index in range(len(platform.groups))
+    ]
+    return (*rotors, *servos)

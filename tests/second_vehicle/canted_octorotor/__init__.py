@@ -3,20 +3,20 @@
 from __future__ import annotations
 
 import mujoco
-import numpy as np
 
 from canted_octorotor.abilities import CantedOctorotorCapabilities
-from canted_octorotor.file_model import N_ROTORS, CantedOctorotorPlatform
+from canted_octorotor.file_model import CantedOctorotorPlatform
 from canted_octorotor.fixed_allocation import FixedAllocation
-from canted_octorotor.mujoco_model import build_spec
-from inspect_cli.interfaces import FlightStack
+from canted_octorotor.mujoco_model import actuators_of, build_spec
+from inspect_cli.interfaces import TOOL, FlightStack
 from inspect_cli.schema.plan import Plan
 from inspect_cli.schema.positioning import Estimation
+from inspect_cli.vehicles.contacts import PointContact
 from inspect_cli.vehicles.fully_actuated import BEHAVIOUR
 from inspect_cli.vehicles.fully_actuated.impedance_control import ImpedanceControl
 from inspect_cli.vehicles.fully_actuated.rigid_body import nominal_body
 from inspect_cli.vehicles.fully_actuated.stack import FullyActuatedStack
-from inspect_cli.vehicles.kinds import Actuators, Tip
+from inspect_cli.vehicles.kinds import Bodies
 
 
 class CantedOctorotor:
@@ -26,14 +26,14 @@ class CantedOctorotor:
 
     def __init__(self, platform: CantedOctorotorPlatform) -> None:
         self.platform = platform
-        rotors, wrist = platform.rotors, platform.wrist
-        self.actuators = Actuators(
-            time_up_s=np.full(N_ROTORS, rotors.time_up_s),
-            time_down_s=np.full(N_ROTORS, rotors.time_down_s),
-            joint_rate_radps=np.array([wrist.servo_rate_radps]),
-            rotor_radius_m=rotors.radius_m,
+        wrist = platform.wrist
+        self.bodies = Bodies()
+        self.frames = (TOOL,)
+        self.contacts = (
+            PointContact("tip", ("tip",), TOOL, wrist.tip_stiffness_npm, wrist.tip_damping_ratio),
         )
-        self.tip = Tip(wrist.tip_radius_m, wrist.tip_stiffness_npm, wrist.tip_damping_ratio)
+        self.actuators = actuators_of(platform)
+        self.joints = self.posture_joints = ("wrist",)
         self._body = nominal_body(build_spec(platform))
         self.capabilities = CantedOctorotorCapabilities(platform, self._body)
 

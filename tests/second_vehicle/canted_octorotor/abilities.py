@@ -12,9 +12,22 @@ from canted_octorotor.file_model import (
 )
 from canted_octorotor.fixed_allocation import FixedAllocation
 from inspect_cli.control.impedance import GRAVITY_MPS2, RigidBody, steady_press_force
-from inspect_cli.interfaces import Margins, Posture
+from inspect_cli.interfaces import (
+    TOOL,
+    ContactLaw,
+    DepthLaw,
+    Goals,
+    Loads,
+    Margin,
+    Margins,
+    Posture,
+    Pressing,
+    Shortfall,
+)
+from inspect_cli.schema.tasks import tasks_with
 from inspect_cli.spatial.arrays import Matrix, Points, Vector
 from inspect_cli.spatial.rotations import matrix_to_quaternion, quaternion_to_matrix
+from inspect_cli.vehicles.fully_actuated import BEHAVIOUR
 
 AIR_DENSITY_KGPM3 = 1.225
 WRIST_SPHERE_M = 0.04
@@ -28,27 +41,32 @@ class CantedOctorotorCapabilities:
         self._platform = platform
         self._body = body
         self._allocation = FixedAllocation(platform.rotors)
-        self.lengths = {"n_rotors": N_ROTORS, "n_joints": 1, "n_arm": 1}
+        self.lengths = {"n_rotors": N_ROTORS, "n_joints": 1, "n_servos": 1, "n_arm": 1}
         self.max_speed_mps = platform.limits.speed_mps
         self.max_acceleration_mps2 = platform.limits.acceleration_mps2
         self.max_angular_rate_radps = platform.limits.angular_rate_radps
         self.standing_height_m = platform.core.gear_height_m
+        self.frames = (TOOL,)
+        self.tasks = tasks_with(BEHAVIOUR.modes)
         self.impedances = tuple(platform.control.profiles)
 
-    def tool_pose(self, posture: Posture) -> tuple[Vector, Matrix]:
+    def frame_pose(self, posture: Posture, frame: str) -> tuple[Vector, Matrix]:
+        if frame != TOOL:
+            raise ValueError(f"no frame is named '{frame}'; there is: {TOOL}")
         R_WB = quaternion_to_matrix(posture.q_WB)
         p_BT, R_BT = tool_in_body(self._platform.wrist, _angle(posture))
         return posture.p_WB + R_WB @ p_BT, R_WB @ R_BT
 
-    def posture_for_tool(self, p_WT: Vector, R_WT: Matrix, near: Posture) -> Posture | None:
+    def solve(self, goals: Goals, loads: Loads, near: Posture) -> Posture | Shortfall:
         """y_B = y_T has to be level, and z_T within the wrist's range of x_B."""
+        p_WT, R_WT = goals[TOOL].p, goals[TOOL].R
         y, z_T = R_WT[:, 1], R_WT[:, 2]
         if abs(y[2]) > LEVEL:
-            return None
+            return Shortfall()
         R_WB = np.column_stack([[y[1], -y[0], 0.0], [y[0], y[1], 0.0], [0.0, 0.0, 1.0]])
         angle = np.arctan2(-z_T[2], z_T @ R_WB[:, 0])
         if abs(angle) > np.radians(self._platform.wrist.range_deg):
-            return None
+            return Shortfall()
         p_BT, _ = tool_in_body(self._platform.wrist, angle)
         return Posture(p_WT - R_WB @ p_BT, matrix_to_quaternion(R_WB), np.array([angle]))
 
@@ -66,29 +84,40 @@ class CantedOctorotorCapabilities:
         R_WB = quaternion_to_matrix(posture.q_WB)
         return np.column_stack([posture.p_WB + centers @ R_WB.T, radii])
 
-    def margins(self, posture: Posture, wrench_tool_W: Vector) -> Margins:
+    def margins(self, posture: Posture, loads: Loads) -> Margins:
         """Thrust left above or below in the worst rotor, and the wrist's way to its limit."""
-        R_WB = quaternion_to_matrix(posture.q_WB)
-        p_BT, _ = tool_in_body(self._platform.wrist, _angle(posture))
-        force_B, torque_B = R_WB.T @ wrench_tool_W[:3], R_WB.T @ wrench_tool_W[3:]
-        pushed = np.concatenate([force_B, torque_B + np.cross(p_BT, force_B)])
-        thrusts = self._allocation.thrusts(self._weight_B(R_WB) - pushed)
-        left = np.minimum(thrusts, self._platform.rotors.max_thrust_n - thrusts)
+        thrusts = self._thrusts(posture, loads)
+        left_n = float(np.minimum(thrusts, self._platform.rotors.max_thrust_n - thrusts).min())
         reach = np.radians(self._platform.wrist.range_deg)
-        return Margins(float(left.min()), float(reach - abs(_angle(posture))))
+        left_rad = float(reach - abs(_angle(posture)))
+        lack_n = f"asks for {-left_n:.2f} N more than a rotor can give"
+        lack_rad = f"asks the wrist to turn {np.degrees(-left_rad):.1f}° beyond its limit"
+        return {
+            "thrust": Margin(left_n, "N", lack_n, "press less deep"),
+            "wrist": Margin(left_rad, "rad", lack_rad, "touch a surface that leans less"),
+        }
 
-    def press_force(self, press_m: float, impedance: str) -> float:
+    def contact_law(self, pressing: Pressing, profile: str) -> ContactLaw:
         _, R_BT = tool_in_body(self._platform.wrist, 0.0)
         control = self._platform.control
-        return steady_press_force(control, control.profiles[impedance], R_BT, press_m)
+        force_n = steady_press_force(control, control.profiles[profile], R_BT, pressing.press_m)
+        return DepthLaw(pressing.press_m, profile, force_n)
 
-    def hover_power_w(self, posture: Posture) -> float:
-        R_WB = quaternion_to_matrix(posture.q_WB)
-        thrusts = np.maximum(self._allocation.thrusts(self._weight_B(R_WB)), 0.0)
+    def power_w(self, posture: Posture, loads: Loads) -> float:
+        thrusts = np.maximum(self._thrusts(posture, loads), 0.0)
         area = np.pi * self._platform.rotors.radius_m**2
         induced = float(np.sum(thrusts**1.5)) / np.sqrt(2.0 * AIR_DENSITY_KGPM3 * area)
         battery = self._platform.battery
         return float(induced / battery.figure_of_merit + battery.avionics_w)
+
+    def _thrusts(self, posture: Posture, loads: Loads) -> Vector:
+        """What the rotors give at rest under a load on the tool."""
+        wrench_W = loads.get(TOOL, np.zeros(6))
+        R_WB = quaternion_to_matrix(posture.q_WB)
+        p_BT, _ = tool_in_body(self._platform.wrist, _angle(posture))
+        force_B, torque_B = R_WB.T @ wrench_W[:3], R_WB.T @ wrench_W[3:]
+        pushed = np.concatenate([force_B, torque_B + np.cross(p_BT, force_B)])
+        return self._allocation.thrusts(self._weight_B(R_WB) - pushed)
 
     def _weight_B(self, R_WB: Matrix) -> Vector:
         """The wrench (6,) that carries the weight."""
@@ -100,4 +129,4 @@ class CantedOctorotorCapabilities:
 
 
 def _angle(posture: Posture) -> float:
-    return float(posture.arm_angle[0]) if posture.arm_angle.size else 0.0
+    return float(posture.joint_angle[0]) if posture.joint_angle.size else 0.0

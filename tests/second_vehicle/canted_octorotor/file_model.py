@@ -8,7 +8,7 @@ import numpy as np
 from pydantic import Field
 
 from inspect_cli.schema.base import Positive, Strict, Triple
-from inspect_cli.schema.vehicle import Core, PlatformBase
+from inspect_cli.schema.vehicle import Core, ImpedancePlatform
 from inspect_cli.spatial.arrays import Matrix, Points, Vector
 
 N_ROTORS = 8
@@ -41,7 +41,7 @@ class Wrist(Strict):
     tip_damping_ratio: Positive
 
 
-class CantedOctorotorPlatform(PlatformBase):
+class CantedOctorotorPlatform(ImpedancePlatform):
     """A body with eight fixed canted rotors, which stays level, and a wrist that pitches a tool."""
 
     kind: Literal["canted_octorotor"]

@@ -6,7 +6,9 @@ import mujoco
 import numpy as np
 
 from canted_octorotor.file_model import CantedOctorotorPlatform, rotor_geometry, tool_in_body
+from inspect_cli.interfaces import TOOL
 from inspect_cli.spatial.rotations import matrix_to_quaternion
+from inspect_cli.vehicles.actuators import Actuator, Rotor, Servo, add_actuators
 
 SERVO_RADPS = 120.0
 SERVO_ARMATURE_KGM2 = 1e-3
@@ -24,8 +26,9 @@ def build_spec(platform: CantedOctorotorPlatform) -> mujoco.MjSpec:
     core.add_freejoint(name="root")
     _add_shell(core, platform)
     _add_gear(core, platform)
-    _add_rotors(spec, core, platform)
-    _add_wrist(spec, core, platform)
+    _add_rotors(core, platform)
+    _add_wrist(core, platform)
+    add_actuators(spec, actuators_of(platform))
     return spec
 
 
@@ -62,29 +65,16 @@ def _add_gear(core, platform):
         _add_sphere(gear, f"foot_{index}", foot, [x, y, height])
 
 
-def _add_rotors(spec, core, platform):
+def _add_rotors(core, platform):
     rotors = platform.rotors
     geometry = zip(*rotor_geometry(rotors), strict=True)
-    for index, (position, direction, spin) in enumerate(geometry):
+    for index, (position, direction, _) in enumerate(geometry):
         across = np.cross(direction, position / np.linalg.norm(position))
         R = np.column_stack([np.cross(across, direction), across, direction])
-        name = f"rotor_{index}"
-        core.add_site(name=name, pos=position, quat=matrix_to_quaternion(R))
-        spec.add_actuator(
-            name=name,
-            trntype=mujoco.mjtTrn.mjTRN_SITE,
-            target=name,
-            gear=[0.0, 0.0, 1.0, 0.0, 0.0, -spin * rotors.moment_constant_m],
-            dyntype=mujoco.mjtDyn.mjDYN_FILTEREXACT,
-            dynprm=[rotors.time_up_s] + [0.0] * 9,
-            gaintype=mujoco.mjtGain.mjGAIN_FIXED,
-            gainprm=[1.0] + [0.0] * 9,
-            ctrllimited=True,
-            ctrlrange=[0.0, rotors.max_thrust_n],
-        )
+        core.add_site(name=f"rotor_{index}", pos=position, quat=matrix_to_quaternion(R))
 
 
-def _add_wrist(spec, core, platform):
+def _add_wrist(core, platform):
     wrist = platform.wrist
     across = wrist.mass_kg * wrist.length_m**2 / 12.0
     tool = _body(
@@ -106,19 +96,32 @@ def _add_wrist(spec, core, platform):
         range=[-reach, reach],
     )
     _add_sphere(tool, "tip", wrist.tip_radius_m, [0.0, 0.0, wrist.length_m - wrist.tip_radius_m])
-    tool.add_site(name="tool_tip", pos=[0.0, 0.0, wrist.length_m])
-    inertia = 4.0 * across + SERVO_ARMATURE_KGM2
-    stiffness, damping = inertia * SERVO_RADPS**2, 2.0 * inertia * SERVO_RADPS
-    spec.add_actuator(
+    tool.add_site(name=TOOL, pos=[0.0, 0.0, wrist.length_m])
+
+
+def actuators_of(platform: CantedOctorotorPlatform) -> tuple[Actuator, ...]:
+    """Eight rotors, and the wrist's servo."""
+    rotors, wrist = platform.rotors, platform.wrist
+    _, _, spins = rotor_geometry(rotors)
+    pushing = [
+        Rotor(
+            name=f"rotor_{index}",
+            radius_m=rotors.radius_m,
+            max_thrust_n=rotors.max_thrust_n,
+            moment_m=-spin * rotors.moment_constant_m,
+            time_up_s=rotors.time_up_s,
+            time_down_s=rotors.time_down_s,
+        )
+        for index, spin in enumerate(spins)
+    ]
+    inertia = wrist.mass_kg * wrist.length_m**2 / 3.0 + SERVO_ARMATURE_KGM2
+    servo = Servo(
         name="wrist",
-        trntype=mujoco.mjtTrn.mjTRN_JOINT,
-        target="wrist",
-        dyntype=mujoco.mjtDyn.mjDYN_FILTEREXACT,
-        dynprm=[wrist.servo_lag_s] + [0.0] * 9,
-        gaintype=mujoco.mjtGain.mjGAIN_FIXED,
-        gainprm=[stiffness] + [0.0] * 9,
-        biastype=mujoco.mjtBias.mjBIAS_AFFINE,
-        biasprm=[0.0, -stiffness, -damping] + [0.0] * 7,
-        forcelimited=True,
-        forcerange=[-wrist.servo_torque_nm, wrist.servo_torque_nm],
+        joint="wrist",
+        lag_s=wrist.servo_lag_s,
+        rate_radps=wrist.servo_rate_radps,
+        torque_nm=wrist.servo_torque_nm,
+        stiffness_nmprad=inertia * SERVO_RADPS**2,
+        damping_nmsprad=2.0 * inertia * SERVO_RADPS,
     )
+    return (*pushing, servo)

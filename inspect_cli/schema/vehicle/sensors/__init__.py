@@ -1,0 +1,47 @@
+"""The kinds of sensors that a platform file may name: one file and one row each.
+
+A package outside this one adds a kind as an entry point of the group ``inspect_cli.sensors``, from
+a module that imports ``schema.vehicle.sensors.base`` and no platform. What measures in the
+simulation stands in ``inspect_cli.sensing``.
+"""
+
+from __future__ import annotations
+
+from typing import Annotated
+
+from inspect_cli.plugins import registered
+from inspect_cli.schema.registry import OneOf
+from inspect_cli.schema.vehicle.sensors.base import MountModel, PoseSourceModel, SensorModel
+from inspect_cli.schema.vehicle.sensors.depth_camera import DepthCameraModel
+from inspect_cli.schema.vehicle.sensors.half_cell import HalfCellModel
+from inspect_cli.schema.vehicle.sensors.imu import ImuModel
+from inspect_cli.schema.vehicle.sensors.odometry import OdometryModel
+from inspect_cli.schema.vehicle.sensors.pose_tracker import PoseTrackerModel
+
+__all__ = [
+    "SENSORS",
+    "AnySensor",
+    "DepthCameraModel",
+    "HalfCellModel",
+    "ImuModel",
+    "MountModel",
+    "OdometryModel",
+    "PoseSourceModel",
+    "PoseTrackerModel",
+    "SensorModel",
+]
+
+SENSORS: dict[str, type[SensorModel]] = registered(
+    "inspect_cli.sensors",
+    {
+        "imu": ImuModel,
+        "pose_tracker": PoseTrackerModel,
+        "odometry": OdometryModel,
+        "depth_camera": DepthCameraModel,
+        "half_cell": HalfCellModel,
+    },
+)
+"""In the order in which a flight samples them: what corrects the estimate comes before what is
+placed by it."""
+
+AnySensor = Annotated[SensorModel, OneOf(SENSORS)]

@@ -1,0 +1,89 @@
+"""The sensors of one flight as mounts: each with a name, a rate, its faults and its listeners."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Collection, Iterator
+from typing import TypeAlias
+
+from inspect_cli.records import Measurement
+from inspect_cli.schema.positioning import Estimation
+from inspect_cli.schema.truth import WALL, TruthModel
+from inspect_cli.schema.vehicle import PlatformBase, PoseSourceModel, SensorModel
+from inspect_cli.schema.vehicle.sensors import SENSORS
+from inspect_cli.sensing.instrument import SimulatedSensor, Surroundings
+from inspect_cli.sensing.sensors import simulated
+from inspect_cli.sensing.wall_force import WallForceSensor
+from inspect_cli.simulation.randomness import component_rng
+from inspect_cli.truth.faults import Faults, Sample
+from inspect_cli.truth.geometry import StructureTruth
+from inspect_cli.truth.snapshot import Truth
+
+Listener: TypeAlias = Callable[..., object]
+"""Takes a measurement of the type that its sensor returns."""
+
+
+class Mount:
+    """One sensor. The loop samples it at its rate and hands what it returns to the listeners."""
+
+    def __init__(self, name: str, rate_hz: int, sensor: SimulatedSensor) -> None:
+        self.name = name
+        self.rate_hz = rate_hz
+        self.sensor = sensor
+        self.listeners: tuple[Listener, ...] = ()
+        self._sample: Sample = sensor.sample
+
+    def fail(self, faults: Faults, seed: int) -> None:
+        """Let the sensor fail where the mission says so."""
+        rng = component_rng(seed, f"{self.name} holes")
+        self._sample = faults.applied_to(self.name, self._sample, rng)
+
+    def sample(self, truth: Truth) -> Measurement | None:
+        """What the sensor returns now; None when nothing came."""
+        return self._sample(truth)
+
+
+def mounts_of(
+    platform: PlatformBase,
+    structure: StructureTruth,
+    truth: TruthModel,
+    seed: int,
+    estimation: Estimation,
+    reads_with: Collection[str],
+) -> tuple[Mount, ...]:
+    """The sensors that a flight needs, in the order in which they are sampled.
+
+    The order is that of the kinds in ``SENSORS``, then a force sensor in a wall. Each sensor has a
+    generator of its own, drawn from ``seed`` by the sensor's name. Of the pose sources only that
+    of ``estimation`` is mounted, and of the kinds that read points only those in ``reads_with``.
+    """
+    kinds = list(SENSORS)
+    chosen = [
+        (name, model)
+        for name, model in platform.sensors.items()
+        if _is_needed(model, estimation, reads_with)
+    ]
+    mounts = []
+    for name, model in sorted(chosen, key=lambda item: kinds.index(item[1].kind)):
+        around = Surroundings(structure, truth, component_rng(seed, name))
+        mounts.append(Mount(name, model.rate_hz, simulated(model, around)))
+    mounts += _wall_sensor(structure, seed)
+    faults = Faults(truth.faults)
+    for mount in mounts:
+        mount.fail(faults, seed)
+    return tuple(mounts)
+
+
+def _is_needed(model: SensorModel, estimation: Estimation, reads_with: Collection[str]) -> bool:
+    if isinstance(model, PoseSourceModel):
+        return model.estimation == estimation
+    return not model.on_demand or model.kind in reads_with
+
+
+def _wall_sensor(structure: StructureTruth, seed: int) -> Iterator[Mount]:
+    for index, surface in enumerate(structure.surfaces):
+        if surface.force_sensor is not None:
+            primitive = structure.solids.primitives[index : index + 1]
+            rng = component_rng(seed, WALL)
+            sensor = WallForceSensor(surface.force_sensor, primitive, rng)
+            yield Mount(WALL, surface.force_sensor.rate_hz, sensor)
+            return

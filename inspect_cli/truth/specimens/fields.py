@@ -1,0 +1,76 @@
+"""What the half-cell probe would read on the true specimen: potential and resistivity over (u, v).
+
+A field is asked by ``at(u, v)``, coordinates along the surface in m, and answers
+(potential in V against copper sulphate, resistivity in Ω·m).
+
+A field also tells where the reinforcement is truly active. A macro cell knows its sites; neither an
+analytic field nor a measured grid knows the steel, so there the combined rule
+(``assessment.classes``) decides on the true values, on the standard's scale: what a CSE reads in
+the concrete, corrected for its temperature as ASTM C876 asks.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import Final, Protocol
+
+import numpy as np
+
+from inspect_cli.assessment.classes import combined_verdict
+from inspect_cli.assessment.electrodes import temperature_correction_v
+from inspect_cli.compiled import kernel
+from inspect_cli.spatial.arrays import Matrix
+
+EDGE: Final = 1e-9
+"""In pitches: a point so little outside the grid is on its edge."""
+
+
+class SpecimenField(Protocol):
+    """Potential and resistivity along a surface."""
+
+    @property
+    def temperature_c(self) -> float:
+        """Of the concrete, in which a copper sulphate electrode reads what ``at`` answers."""
+        ...
+
+    def at(self, u: float, v: float) -> tuple[float, float]:
+        """(V, Ω·m) at (u, v) in m; NaN where the specimen has no values."""
+        ...
+
+    def active(self, u: float, v: float) -> bool:
+        """Whether the reinforcement under (u, v), m, truly corrodes; False without values."""
+        ...
+
+
+@kernel
+def bilinear(x: float, y: float, values: Matrix) -> tuple[float, float]:
+    """Both tables of ``values`` (rows, columns, 2) at column ``x`` and row ``y``; NaN outside."""
+    rows, columns = values.shape[0], values.shape[1]
+    inside = -EDGE <= x <= columns - 1 + EDGE and -EDGE <= y <= rows - 1 + EDGE
+    if not inside:
+        return np.nan, np.nan
+    x = min(max(x, 0.0), columns - 1.0)
+    y = min(max(y, 0.0), rows - 1.0)
+    j = min(int(x), columns - 2)
+    i = min(int(y), rows - 2)
+    s, t = x - j, y - i
+    a, b, c, d = (1 - t) * (1 - s), (1 - t) * s, t * (1 - s), t * s
+    return (
+        a * values[i, j, 0]
+        + b * values[i, j + 1, 0]
+        + c * values[i + 1, j, 0]
+        + d * values[i + 1, j + 1, 0],
+        a * values[i, j, 1]
+        + b * values[i, j + 1, 1]
+        + c * values[i + 1, j, 1]
+        + d * values[i + 1, j + 1, 1],
+    )
+
+
+def says_active(field: SpecimenField, u: float, v: float) -> bool:
+    """Whether the combined rule says active of the values at (u, v), m, on the standard's scale."""
+    potential, resistivity = field.at(u, v)
+    if math.isnan(potential):
+        return False
+    standard = potential + temperature_correction_v(field.temperature_c)
+    return combined_verdict(standard, resistivity) == "active"
