@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import numpy as np
-from inspect_cli.sensing.pose import PoseSensor
 from pitching_crawler import PitchingCrawler
 from pitching_crawler.foot_sensor import EncoderSensor, FootSensor
 from pitching_crawler.modes import CrawlerPlan
@@ -13,11 +12,13 @@ from inspect_cli.interfaces import Posture
 from inspect_cli.schema.geometry import PlaneShape
 from inspect_cli.schema.truth import ProximityEffects, TruePlatform
 from inspect_cli.sensing.imu import ImuSensor
+from inspect_cli.sensing.pose_tracker import PoseSensor
 from inspect_cli.simulation.plant import Plant
 from inspect_cli.simulation.world import build_world
 from inspect_cli.truth.disturbances import Disturbances
 from inspect_cli.truth.geometry import SurfaceTruth, structure_of
 from inspect_cli.truth.proximity import Proximity
+from inspect_cli.truth.snapshot import Truth
 from inspect_cli.vehicles.actuators import rotor_radii_m
 
 Array = np.ndarray
@@ -49,14 +50,14 @@ class Flight:
             Proximity(calm, structure.solids, rotor_radii_m(vehicle.actuators)),
             numbers.control_hz,
         )
-        self.vehicle = vehicle
-        self._imu = ImuSensor(numbers.imu, numbers.control_hz, rng)
+        self.vehicle, self._truth = vehicle, Truth(self.plant.state)
+        self._imu = ImuSensor(numbers.imu, rng)
         self._pose = PoseSensor(numbers.pose, rng)
         self._encoders = EncoderSensor(numbers, lengths)
         self._foot = FootSensor(numbers, rng)
         self._period_s = 1.0 / numbers.control_hz
         self._steps = numbers.physics_hz // numbers.control_hz
-        self._ticks_per_pose = numbers.control_hz // numbers.pose_hz
+        self._ticks_per_pose = numbers.control_hz // numbers.pose.rate_hz
         self.rows: dict[str, list[Array]] = {}
         """By name of mode and quantity, one row per tick of control."""
         start = Posture(np.array([0.0, 0.0, numbers.gear_height_m]), UPRIGHT, np.zeros(1))
@@ -67,7 +68,7 @@ class Flight:
 
     def fly(self) -> None:
         """Fly all orders."""
-        self._pose.sample(self.plant.state)
+        self._pose.sample(self._truth)
         self.stack.start(self._pose.measurement)
         tick = 0
         while not self.executive.finished:
@@ -82,12 +83,12 @@ class Flight:
         t_s, plant, stack = tick * self._period_s, self.plant, self.stack
         state = plant.observe(t_s)
         plant.observe_contacts(t_s)
-        self._imu.sample(state)
+        self._imu.sample(self._truth)
         self._encoders.sample(state)
         self._foot.sample(state, plant.contacts["foot"])
         samples = [self._imu.measurement, self._encoders.measurement, self._foot.measurement]
         if tick % self._ticks_per_pose == 0:
-            self._pose.sample(state)
+            self._pose.sample(self._truth)
             samples.append(self._pose.measurement)
         for sample in samples:
             sample.t_s = t_s

@@ -11,7 +11,7 @@ from pitching_crawler.mujoco_model import FOOT
 from scipy.spatial.transform import Rotation
 
 from inspect_cli.autonomy.modes import Order
-from inspect_cli.interfaces import TOOL, Posture
+from inspect_cli.interfaces import TOOL, FramePose, Posture
 from inspect_cli.vehicles import tilt_rotor
 from inspect_cli.vehicles.actuators import Drive, Rotor
 
@@ -60,7 +60,8 @@ def trimmed(flight: Flight) -> Posture:
     """The planned posture at the place that is touched."""
     able = flight.vehicle.capabilities
     load = np.array([-PUSH_N, 0.0, 0.0, 0.0, 0.0, 0.0])
-    goal = (flight.logged("nearing", "p_WT")[0], able.frame_pose(at(0.0, 0.0), TOOL)[1])
+    axes = able.frame_pose(at(0.0, 0.0), TOOL)[1]
+    goal = FramePose(flight.logged("nearing", "p_WT")[0], axes)
     return able.solve({TOOL: goal}, {TOOL: load}, at(0.0, 0.0))
 
 
@@ -82,7 +83,7 @@ def test_it_leans_as_statics_say(flight):
     assert MASS * G * np.tan(pitch.mean()) == pytest.approx(PUSH_N, rel=0.1)
     assert pitch.mean() == pytest.approx(pitch_of(trimmed(flight).q_WB[None])[0], rel=0.1)
     hinge = flight.logged("leaning", "joint_angle")[HELD, 0]
-    assert hinge.mean() == pytest.approx(trimmed(flight).arm_angle[0], abs=np.radians(1.0))
+    assert hinge.mean() == pytest.approx(trimmed(flight).joint_angle[0], abs=np.radians(1.0))
     height = flight.logged("leaning", "p_WB")[-1, 2]
     assert height == pytest.approx(trimmed(flight).p_WB[2], abs=0.03)
 

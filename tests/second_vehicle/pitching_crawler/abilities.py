@@ -7,13 +7,11 @@ follows from the balance about its sprung hinge; nobody commands it.
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-
 import numpy as np
 from scipy.optimize import brentq
 
 from inspect_cli.control.impedance import RigidBody
-from inspect_cli.interfaces import TOOL, Posture, Shortfall
+from inspect_cli.interfaces import TOOL, Goals, Loads, Posture, Shortfall
 from inspect_cli.spatial.arrays import Matrix, Vector
 from inspect_cli.spatial.constants import GRAVITY_MPS2
 from inspect_cli.spatial.rotations import matrix_to_quaternion, quaternion_to_matrix
@@ -50,8 +48,8 @@ class CrawlerAbilities:
 
     def solve(
         self,
-        goals: Mapping[str, tuple[Vector, Matrix]],
-        loads: Mapping[str, Vector],
+        goals: Goals,
+        loads: Loads,
         near: Posture,
     ) -> Posture | Shortfall:
         """The posture that puts a frame there and carries the loads (6,), which act on it in W.
@@ -63,7 +61,8 @@ class CrawlerAbilities:
         limit = N_ROTORS * self._numbers.max_thrust_n
         if np.linalg.norm(thrust) > limit:
             return Shortfall(f"it needs {np.linalg.norm(thrust) - limit:.2f} N more thrust")
-        [(frame, (p, R))] = goals.items()
+        [(frame, goal)] = goals.items()
+        p, R = goal.p, goal.R
         ahead = R[:, 2] if frame == TOOL else R[:, 0]
         if np.hypot(ahead[0], ahead[1]) < LEAST_RISE:
             return Shortfall(f"the {frame} has no heading")
@@ -75,7 +74,7 @@ class CrawlerAbilities:
         offset, _ = self.frame_pose(at_origin, frame)
         return Posture(p - offset, at_origin.q_WB, at_origin.joint_angle)
 
-    def thrust_margin_n(self, posture: Posture, loads: Mapping[str, Vector]) -> float:
+    def thrust_margin_n(self, posture: Posture, loads: Loads) -> float:
         """Thrust left in the busiest rotor."""
         R_WB = quaternion_to_matrix(posture.q_WB)
         up_B = R_WB.T @ [0.0, 0.0, self._body.mass_kg * GRAVITY_MPS2]

@@ -6,12 +6,14 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from inspect_cli.schema.positioning import PoseModel
 from inspect_cli.schema.vehicle import ImuModel
+from inspect_cli.schema.vehicle.sensors.pose_tracker import PoseTrackerModel
 from inspect_cli.spatial.arrays import Points, Vector
 
 N_ROTORS = 6
 IMU = ImuModel(
+    kind="imu",
+    rate_hz=250,
     accel_noise=0.002,
     gyro_noise=0.0002,
     accel_bias_walk=0.0003,
@@ -19,7 +21,9 @@ IMU = ImuModel(
     accel_bias_initial_mps2=0.01,
     gyro_bias_initial_radps=0.001,
 )
-POSE = PoseModel(position_noise_m=0.001, attitude_noise_rad=0.001)
+POSE = PoseTrackerModel(
+    kind="pose_tracker", rate_hz=125, position_noise_m=0.001, attitude_noise_rad=0.001
+)
 
 
 @dataclass(frozen=True)
@@ -28,7 +32,6 @@ class CrawlerNumbers:
 
     physics_hz: int = 1000
     control_hz: int = 250
-    pose_hz: int = 125
     body_mass_kg: float = 2.0
     body_inertia_kgm2: tuple[float, float, float] = (0.040, 0.045, 0.075)
     gear_height_m: float = 0.25
@@ -59,7 +62,7 @@ class CrawlerNumbers:
     foot_torque_noise_nm: float = 0.002
     encoder_step_rad: float = 2.0 * np.pi / 4096
     imu: ImuModel = IMU
-    pose: PoseModel = POSE
+    pose: PoseTrackerModel = POSE
 
     @property
     def arm_moment_kgm(self) -> float:

@@ -16,7 +16,7 @@ import numpy as np
 
 from inspect_cli.control.impedance import RigidBody
 from inspect_cli.estimation.error_state import ErrorStateFilter
-from inspect_cli.interfaces import TOOL, DepthImage, Posture
+from inspect_cli.interfaces import TOOL, DepthImage, FramePose, Posture
 from inspect_cli.records import Command, Estimate, Imu, Pose, Record, Reference
 from inspect_cli.spatial.arrays import Matrix, Vector
 from inspect_cli.spatial.constants import GRAVITY_MPS2
@@ -68,7 +68,7 @@ class CrawlerStack:
         self.armed = False
         self.point = SetPoint(start.p_WB.copy())
         self._filter = ErrorStateFilter(
-            numbers.imu, numbers.pose, numbers.control_hz, numbers.pose_hz
+            numbers.imu, numbers.pose, numbers.imu.rate_hz, numbers.pose.rate_hz
         )
         self._numbers, self._abilities, self._body = numbers, abilities, body
         self._thrusts = np.linalg.pinv(abilities.allocation)
@@ -146,7 +146,7 @@ class CrawlerStack:
         _, R = self._abilities.frame_pose(level, frame)
         R_heading = roll_pitch_yaw_matrix(0.0, 0.0, self.point.heading)
         load = np.array([*(-force_n * into_W), 0.0, 0.0, 0.0])
-        found = self._abilities.solve({frame: (p_W, R_heading @ R)}, {frame: load}, level)
+        found = self._abilities.solve({frame: FramePose(p_W, R_heading @ R)}, {frame: load}, level)
         if isinstance(found, Shortfall):
             raise ValueError(found.reason)
         return found
