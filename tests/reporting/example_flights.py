@@ -125,7 +125,8 @@ def survey(
         for j in range(columns)
     ]
     phases = _phases(places)
-    channels = _channels(phases, places, {"n_rotors": n_rotors, "n_joints": n_joints})
+    lengths = {"n_rotors": n_rotors, "n_joints": n_joints, "n_servos": n_joints}
+    channels = _channels(phases, places, lengths)
     end_s = float(channels[Reference.topic]["t_s"][-1])
     rng = np.random.default_rng(3)
     cloud = np.column_stack(
