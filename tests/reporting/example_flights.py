@@ -354,6 +354,7 @@ def _plan(
             "n_W": [-1, 0, 0],
             "q_WT": [0.7071067811865476, 0, 0.7071067811865476, 0],
             "sensor": "half_cell",
+            "cell_m": [0.05, 0.05],
             "law": LAW,
             "dwell_s": 3.0,
             "standoff_m": STANDOFF_M,
