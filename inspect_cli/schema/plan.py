@@ -78,11 +78,11 @@ class Stroke(Strict):
     """(u, v) of the points of each smooth piece; the tool rests between pieces."""
     speed_mps: Positive
     drawing: Annotated[int, Field(ge=0)] = 0
-    """Which of the mission's drawings it belongs to,"""
+    """Place in the mission of the task that draws it."""
     trial: Annotated[int, Field(ge=0)] = 0
-    """for the how manieth time it is drawn,"""
+    """Repetition index of the drawing, from 0."""
     part: Annotated[int, Field(ge=0)] = 0
-    """and which of the drawing's strokes it is."""
+    """Index of the stroke within the drawing, from 0."""
 
 
 class Following(Strict):
