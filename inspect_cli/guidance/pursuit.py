@@ -22,6 +22,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from inspect_cli.compiled import bound
 from inspect_cli.guidance.contact_frame import ContactFrame
 from inspect_cli.guidance.motion import Motion, MotionLimits
 from inspect_cli.guidance.quintic import evaluate_motion
@@ -99,8 +100,11 @@ class Pursuit:
         self._approach: _Approach | None = None
         self._arrival_s = 0.0
         self._arm_angle = self.reference.arm_angle
+        self._has_arm = bool(self._arm_angle.size)
         self._p_BT = self._tool_offset()
+        self._stretch: Stretch | None = None
         views = self.reference.views
+        self._t_s = views["t_s"]
         self._written = (
             views["p_WB"],
             views["q_WB"],
@@ -231,20 +235,24 @@ class Pursuit:
     def write(self, t_s: float) -> None:
         """Write the motion of the instant into ``reference``."""
         stretch = self._trajectory.at(t_s)
-        if self._arm_angle.size:
+        if self._has_arm:
             self._arm_angle[:] = stretch.arm_motion(t_s)[0]
-            self._p_BT = self._tool_offset()
-        evaluate_motion(
-            t_s - stretch.start_s,
-            stretch.duration_s,
-            stretch.turn_s,
-            stretch.position,
-            stretch.rotation,
-            stretch.q_start,
-            self._p_BT,
-            *self._written,
-        )
-        self.reference.t_s = t_s
+            self._p_BT[:] = self._tool_offset()
+        if stretch is not self._stretch:
+            self._stretch, self._start_s = stretch, stretch.start_s
+            self._evaluate = bound(
+                evaluate_motion,
+                stretch.duration_s,
+                stretch.turn_s,
+                stretch.position,
+                stretch.rotation,
+                stretch.q_start,
+                self._p_BT,
+                *self._written,
+                then=(0.0,),
+            )
+        self._evaluate(t_s - self._start_s)
+        self._t_s[0] = t_s
 
     def _follow(self, trajectory: Trajectory) -> None:
         self._trajectory = trajectory
