@@ -21,7 +21,7 @@ def _unit(value: tuple[float, float, float, float]) -> tuple[float, float, float
 
 Quaternion = Annotated[tuple[float, float, float, float], AfterValidator(_unit)]
 LegKind = Name
-"""``takeoff``, ``transit``, ``land``, or the name that a task's planner gives: as a rule a mode's."""
+"""``takeoff``, ``transit``, ``land``, or as a task's planner calls it: as a rule like a mode."""
 GOING = ("takeoff", "transit", "land")
 """Kinds of leg that lead somewhere without having to be about a target."""
 ToolDirection = Literal["x", "-x", "y", "-y"]
