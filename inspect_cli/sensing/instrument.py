@@ -7,7 +7,7 @@ from typing import Final, Protocol
 
 import numpy as np
 
-from inspect_cli.records import Measurement
+from inspect_cli.records import Lengths, Measurement
 from inspect_cli.schema.truth import TruthModel
 from inspect_cli.spatial.arrays import Matrix, Vector
 from inspect_cli.truth.geometry import StructureTruth
@@ -64,5 +64,7 @@ class Surroundings:
     """The true surfaces."""
     truth: TruthModel
     """What else is so in this flight."""
+    lengths: Lengths
+    """The vehicle's numbers that shapes in records refer to, such as ``n_joints``."""
     rng: np.random.Generator
     """The sensor's own generator."""

@@ -92,9 +92,14 @@ class Flight:
         self.plan = plan
         self.contact = ContactTruth(structure)
         state = self.plant.state
-        self.truth = Truth(state, partial(self.contact.update, state), self.plant.wall_wrench)
+        self.truth = Truth(
+            state,
+            partial(self.contact.update, state),
+            self.plant.wall_wrench,
+            self.plant.contact_wrench,
+        )
         reads_with = {target.sensor for target in plan.targets if target.sensor is not None}
-        self.mounts = mounts_of(platform, structure, truth, seed, estimation, reads_with)
+        self.mounts = mounts_of(platform, lengths, structure, truth, seed, estimation, reads_with)
         self.stack = vehicle.flight_stack(plan, estimation)
 
         def judge(target: Target) -> ReadingJudge:

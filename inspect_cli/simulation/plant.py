@@ -14,6 +14,7 @@ import mujoco
 import numpy as np
 
 from inspect_cli.compiled import bound
+from inspect_cli.errors import InputError
 from inspect_cli.interfaces import TOOL, Posture
 from inspect_cli.records import Command, Lengths, State
 from inspect_cli.simulation.addresses import addresses_of, contact_addresses
@@ -147,6 +148,20 @@ class Plant:
             wrench[:3] += force
             wrench[3:] += contact[3:6] + cross(contact[6:9], force)
         return wrench
+
+    def contact_wrench(self, name: str) -> Vector:
+        """Force on a contact and torque about the origin of its frame, (6,) in W.
+
+        Raises:
+            InputError: the vehicle has no contact of that name.
+        """
+        if name not in self.contacts:
+            known = ", ".join(self.contacts)
+            raise InputError(f"the vehicle has no contact '{name}'", hint=f"it has: {known}")
+        record = self.contacts[name]
+        places, origin_W = self._contacts[list(self.contacts).index(name)]
+        read_wrench(places, self._sensors, origin_W, record.array)
+        return np.concatenate([record.f_W, record.t_W])
 
     def observe_contacts(self, t_s: float) -> None:
         """Read the wrench on each contact; ``observe`` has refreshed the kinematics."""
