@@ -175,6 +175,8 @@ def test_its_report_says_what_was_flown_and_no_more(flight):
     assert "PROPPING" in page
     assert "Surface seen by the depth camera" not in page
     assert "contact_ndt" not in page
+    assert "Wrench on a contact" in page  # the package's own chapter
+    assert "The wrench sensor measured up to" in page
 
 
 def edited(campaign, name, old, new):
