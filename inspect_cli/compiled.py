@@ -11,13 +11,32 @@ another makes Numba compile its error messages about shapes, which takes seconds
 from __future__ import annotations
 
 from collections.abc import Callable
+from functools import partial
 from typing import Any, TypeVar, cast
 
 import numba
 
 F = TypeVar("F", bound=Callable[..., Any])
+Number = float | int | bool
+_NUMBA: Any = numba  # much of it has no annotations
 
 
 def kernel(function: F) -> F:
     """Compile ``function`` on its first call and keep the machine code on disk."""
     return cast(F, numba.njit(cache=True, error_model="numpy")(function))
+
+
+def bound(
+    function: Callable[..., Any], *arguments: object, then: tuple[Number, ...] = ()
+) -> Callable[..., Any]:
+    """A kernel with its first arguments fixed; ``then`` are examples of those that a call adds.
+
+    An ordinary call looks up the type of every argument, which costs 0.4 µs for a structured
+    array: more than most kernels compute. Here the types are resolved once, so the arguments are
+    what lives as long as the caller and is changed in place: arrays, and numbers that stay.
+    A call converts what it adds to the types of the examples.
+    """
+    if isinstance(function, _NUMBA.core.dispatcher.Dispatcher):
+        types = tuple(_NUMBA.typeof(value) for value in (*arguments, *then))
+        function = function.compile(types)
+    return partial(function, *arguments)

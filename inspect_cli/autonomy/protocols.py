@@ -33,7 +33,7 @@ class Guidance(Protocol):
         ...
 
     def observe(self, t_s: float, surface: SurfaceEstimate) -> None:
-        """Correct the aim by what the camera sees."""
+        """Correct the contact frame by what the camera sees."""
         ...
 
     def contradicts(self, t_s: float, target: Target, surface: SurfaceEstimate) -> bool:

@@ -147,8 +147,9 @@ def export(
 
 def handed_readings(log: RunLog, result: Result) -> HandedReadings:
     """The readings of a flight, or of the sorties of a survey."""
+    probe = log.platform().find(HalfCellModel)
     return HandedReadings(
         points=result.points,
         title=log.mission().title or result.mission,
-        electrode=log.platform().sensor(HalfCellModel).electrode,
+        electrode=probe.electrode if probe else HalfCellModel.model_fields["electrode"].default,
     )

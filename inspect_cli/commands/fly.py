@@ -8,11 +8,11 @@ from pathlib import Path
 
 from pydantic import ValidationError
 
-from inspect_cli.commands.beneath import structure_beneath
 from inspect_cli.commands.flying import Progress, fly_into
 from inspect_cli.commands.plan import inputs_sha256, plan_loaded, vehicle_of
 from inspect_cli.commands.runs import prepared_run, run_folder
 from inspect_cli.commands.survey import fly_survey
+from inspect_cli.commands.truth_under_surface import truth_under_surfaces
 from inspect_cli.errors import InputError
 from inspect_cli.schema.coverage import CoveragePlan, CoveragePlanFile
 from inspect_cli.schema.loading import Loaded, load_mission
@@ -63,7 +63,7 @@ def fly_loaded(
     seed = loaded.mission.seeds[0] if seed is None else seed
     folder = out or run_folder(loaded.root, plan.mission, plan.platform, seed)
     believed = plan.sorties[0].plan.surfaces if isinstance(plan, CoveragePlan) else plan.surfaces
-    structure = structure_beneath(loaded, believed)
+    structure = truth_under_surfaces(loaded, believed)
     with prepared_run(folder):
         if isinstance(plan, CoveragePlan):
             result, ending = fly_survey(folder, vehicle, plan, loaded, structure, seed, progress)

@@ -54,7 +54,7 @@ from inspect_cli.schema.vehicle import HalfCellModel
 from inspect_cli.sensing.half_cell import steady_readings
 from inspect_cli.simulation.randomness import component_rng
 from inspect_cli.spatial.arrays import Points, Vector
-from inspect_cli.truth.rasters import Beneath
+from inspect_cli.truth.rasters import UnderSurface
 
 POSITION_SD_M: dict[Estimation, float] = {"external": 0.002, "onboard": 0.008}
 """Of the true contact from its point, along u and along v each, by where poses come from."""
@@ -71,7 +71,7 @@ class PitchSampler:
         self,
         loaded: Loaded,
         work: ContactGrid | Coverage,
-        beneath: Beneath,
+        beneath: UnderSurface,
         planned: Points,
         seed: int,
     ) -> None:

@@ -15,10 +15,10 @@ from itertools import pairwise
 import numpy as np
 
 from inspect_cli.assessment.classes import SUSTAINS_CORROSION_OHM_M
-from inspect_cli.commands.beneath import structure_beneath
 from inspect_cli.commands.pitch_sampling import POSITION_SD_M, PitchSampler
 from inspect_cli.commands.plan import plan_loaded, vehicle_of
 from inspect_cli.commands.sweeps import Factor, Study, revalidated, shortest
+from inspect_cli.commands.truth_under_surface import truth_under_surfaces
 from inspect_cli.errors import InputError, Location, Problem
 from inspect_cli.reporting.studies.pitch_figures import (
     ACTIVE,
@@ -52,7 +52,7 @@ from inspect_cli.schema.study import StudyColumn, StudyResult, StudyVariant, Thr
 from inspect_cli.schema.tasks.contact_grid import ContactGrid
 from inspect_cli.schema.tasks.coverage import Coverage
 from inspect_cli.spatial.arrays import Points
-from inspect_cli.truth.rasters import all_beneath
+from inspect_cli.truth.rasters import all_under_surfaces
 
 WHOLE_LINES = 1e-9
 
@@ -128,9 +128,9 @@ def _sampler(loaded: Loaded, seed: int) -> PitchSampler:
     as_it_stands = _with_pitch(loaded, _pitch(loaded))
     plan = plan_loaded(as_it_stands, vehicle_of(as_it_stands))
     one = plan.joined() if isinstance(plan, CoveragePlan) else plan
-    structure = structure_beneath(loaded, one.surfaces)
+    structure = truth_under_surfaces(loaded, one.surfaces)
     work = _work(as_it_stands)
-    beneath = next(b for b in all_beneath(structure, one.surfaces) if b.surface == work.on)
+    beneath = next(b for b in all_under_surfaces(structure, one.surfaces) if b.surface == work.on)
     return PitchSampler(as_it_stands, work, beneath, _planned(one), seed)
 
 

@@ -15,15 +15,16 @@ is where it enters. At rest in contact τ_e = R M̃ Rᵀ K̃ x̃.
 
 from __future__ import annotations
 
+import operator
 from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
 
-from inspect_cli.compiled import kernel
-from inspect_cli.records import Command, Estimate, Reference
+from inspect_cli.compiled import bound, kernel
+from inspect_cli.records import Command, Estimate, Record, Reference
 from inspect_cli.schema.vehicle import ControlModel, ImpedanceProfile
-from inspect_cli.spatial.arrays import Matrix, Structured, Vector
+from inspect_cli.spatial.arrays import Matrix, Vector
 from inspect_cli.spatial.constants import GRAVITY_MPS2
 from inspect_cli.spatial.rotations import (
     cross,
@@ -37,40 +38,56 @@ from inspect_cli.spatial.rotations import (
 
 @kernel
 def impedance_wrench(
-    estimate: Structured,
-    reference: Structured,
+    p: Vector,
+    q: Vector,
+    v: Vector,
+    w: Vector,
+    observed: Vector,
+    p_ref: Vector,
+    q_ref: Vector,
+    v_ref: Vector,
+    w_ref: Vector,
+    a_ref: Vector,
+    alpha_ref: Vector,
     mass: float,
     inertia_B: Matrix,
     com_B: Vector,
     shaping: Matrix,
     stiffness: Vector,
     damping: Vector,
-    command: Structured,
+    wrench_B: Vector,
     weight_B: Vector,
 ) -> None:
-    """Write the law's wrench into a Command (1,) and, apart, the force that carries the weight.
+    """Write the law's wrench (6,) and, apart, the force (3,) that carries the weight, N, in B.
 
-    ``shaping`` (2, 3, 3) holds R M̃⁻¹ Rᵀ − I for force and for torque; ``stiffness`` and
-    ``damping`` (6,) are the diagonals of K̃ and D̃ in B; ``weight_B`` (3,) is in B, N.
+    Motion and reference are those of ``records.Estimate`` and ``Reference``, ``observed`` (6,) is
+    τ̂_e. ``shaping`` (2, 3, 3) holds R M̃⁻¹ Rᵀ − I for force and for torque; ``stiffness`` and
+    ``damping`` (6,) are the diagonals of K̃ and D̃ in B.
     """
-    now, ref, wrench_B = estimate[0], reference[0], command[0]["wrench_B"]
-    q_WB, w = now["q_WB"], now["w_WB_B"]
-    p_error = rotate_back(q_WB, now["p_WB"] - ref["p_WB"])
-    v_error = rotate_back(q_WB, now["v_WB_W"] - ref["v_WB_W"])
+    p_off, v_off, up = np.empty(3), np.empty(3), np.zeros(3)
+    up[2] = GRAVITY_MPS2
+    for k in range(3):
+        p_off[k] = p[k] - p_ref[k]
+        v_off[k] = v[k] - v_ref[k]
+    p_error = rotate_back(q, p_off)
+    v_error = rotate_back(q, v_off)
     # The rotation vector of the error is its own axis: the same in the reference's B and in B.
-    q_error = quaternion_multiply(quaternion_conjugate(ref["q_WB"]), q_WB)
+    q_error = quaternion_multiply(quaternion_conjugate(q_ref), q)
     theta = quaternion_log(q_error)
-    w_ref_B = rotate_back(q_error, ref["w_WB_B"])
-    alpha_ref_B = rotate_back(q_error, ref["alpha_WB_B"])
-    a_ref_B = rotate_back(q_WB, ref["a_WB_W"])
-    up_B = rotate_back(q_WB, np.array([0.0, 0.0, GRAVITY_MPS2]))
+    w_ref_B = rotate_back(q_error, w_ref)
+    alpha_ref_B = rotate_back(q_error, alpha_ref)
+    a_ref_B = rotate_back(q, a_ref)
+    up_B = rotate_back(q, up)
 
     # M v̇_ref + C v + g of a rigid body about O_b whose centre of mass is at com_B.
     centripetal = cross(w, cross(w, com_B))
     gyroscopic = cross(w, turned(inertia_B, w))
     angular = turned(inertia_B, alpha_ref_B)
     tangential = cross(alpha_ref_B, com_B)
-    lever = cross(com_B, a_ref_B + up_B)
+    carried = np.empty(3)
+    for k in range(3):
+        carried[k] = a_ref_B[k] + up_B[k]
+    lever = cross(com_B, carried)
     for k in range(3):
         weight_B[k] = mass * up_B[k]
         force = (
@@ -86,8 +103,8 @@ def impedance_wrench(
             - damping[3 + k] * (w[k] - w_ref_B[k])
         )
         for j in range(3):
-            force += shaping[0, k, j] * now["wrench_B"][j]
-            torque += shaping[1, k, j] * now["wrench_B"][3 + j]
+            force += shaping[0, k, j] * observed[j]
+            torque += shaping[1, k, j] * observed[3 + j]
         wrench_B[k] = force
         wrench_B[3 + k] = torque
 
@@ -116,6 +133,12 @@ class Impedance:
             sum((share * one.stiffness for one, share in given), np.zeros(6)),
             sum((share * one.damping for one, share in given), np.zeros(6)),
         )
+
+    def become(self, other: Impedance) -> None:
+        """Take the numbers of another, in place."""
+        self.shaping[...] = other.shaping
+        self.stiffness[:] = other.stiffness
+        self.damping[:] = other.damping
 
 
 def shaping_matrices(profile: ImpedanceProfile, R_BT: Matrix) -> Matrix:
@@ -155,28 +178,39 @@ class ImpedanceController:
         self._tick = self._blend_ticks
         self._chosen = -1
         self._shares = self._shares_before = np.zeros(len(self._profiles))
+        self._now = Impedance(np.zeros((2, 3, 3)), np.zeros(6), np.zeros(6))
         self.turn_tool(R_BT)
         self.weight_B = np.zeros(3)
+        self._records: tuple[Record | None, ...] = (None, None, None)
 
     def turn_tool(self, R_BT: Matrix) -> None:
         """Follow an arm that turned its tool in B."""
         self._all = [Impedance.of(self._model, profile, R_BT) for profile in self._profiles]
-        self._now = Impedance.mixed(self._all, self._shares)
+        self._now.become(Impedance.mixed(self._all, self._shares))
 
     def update(self, estimate: Estimate, reference: Reference, command: Command) -> None:
         """Write ``command.wrench_B``."""
-        body = self._body
         self._choose(int(reference.views["impedance"][0]))
-        impedance_wrench(
-            estimate.array,
-            reference.array,
+        given = (estimate, reference, command)
+        if not all(map(operator.is_, given, self._records)):
+            self._bind(*given)
+        self._law()
+
+    def _bind(self, estimate: Estimate, reference: Reference, command: Command) -> None:
+        body, now = self._body, self._now
+        self._records = (estimate, reference, command)
+        self._law = bound(
+            impedance_wrench,
+            *(estimate.views[name] for name in ("p_WB", "q_WB", "v_WB_W", "w_WB_B", "wrench_B")),
+            *(reference.views[name] for name in ("p_WB", "q_WB", "v_WB_W", "w_WB_B")),
+            *(reference.views[name] for name in ("a_WB_W", "alpha_WB_B")),
             body.mass_kg,
             body.inertia_B,
             body.com_B,
-            self._now.shaping,
-            self._now.stiffness,
-            self._now.damping,
-            command.array,
+            now.shaping,
+            now.stiffness,
+            now.damping,
+            command.views["wrench_B"],
             self.weight_B,
         )
 
@@ -195,7 +229,7 @@ class ImpedanceController:
         else:
             share = self._tick / self._blend_ticks
             self._shares = (1.0 - share) * self._shares_before + share * asked
-        self._now = Impedance.mixed(self._all, self._shares)
+        self._now.become(Impedance.mixed(self._all, self._shares))
 
 
 def steady_contact_force(

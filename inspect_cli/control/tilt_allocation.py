@@ -17,7 +17,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from inspect_cli.compiled import kernel
+from inspect_cli.compiled import bound, kernel
 from inspect_cli.records import Command
 from inspect_cli.spatial.arrays import Matrix, Vector
 
@@ -63,16 +63,17 @@ def allocate(
     tilt: Vector,
     rotor_thrust: Vector,
     granted_B: Vector,
-) -> float:
+    saturated: Vector,
+) -> None:
     """Write tilts (n,) rad (updated in place), thrusts (2n,) N and the granted wrench (6,).
 
     ``weight_B`` (3,) is the part of the force that carries the weight. Rotors come in pairs
-    (upper, lower) per group. Returns 1 if anything had to be scaled down, else 0.
+    (upper, lower) per group. ``saturated`` (1,) is 1 if anything had to be scaled down, else 0.
     """
     n = tilt.shape[0]
     total = np.zeros(2 * n)
     part = np.zeros(2 * n)
-    saturated = 0.0
+    saturated[0] = 0.0
     for stage in range(3):
         for row in range(2 * n):
             value = 0.0
@@ -86,7 +87,7 @@ def allocate(
             part[row] = value
         share = _largest_share(total, part, n, limit)
         if share < 1.0:
-            saturated = 1.0
+            saturated[0] = 1.0
         for row in range(2 * n):
             total[row] += share * part[row]
     for i in range(n):
@@ -101,7 +102,6 @@ def allocate(
         for row in range(2 * n):
             value += A[k, row] * total[row]
         granted_B[k] = value
-    return saturated
 
 
 class TiltAllocation:
@@ -111,6 +111,8 @@ class TiltAllocation:
         self.matrix = allocation_matrix(azimuth_rad, distance_m, kappa_m)
         self._inverse = np.ascontiguousarray(np.linalg.pinv(self.matrix))
         self._limit_n = limit_n
+        self._command: Command | None = None
+        self._weight_B: Vector | None = None
 
     def group_thrusts(self, wrench_B: Vector) -> Vector:
         """Thrust (n,) that each group would need for a wrench (6,), without limits, N."""
@@ -126,14 +128,19 @@ class TiltAllocation:
 
     def update(self, weight_B: Vector, command: Command) -> None:
         """Turn ``command.wrench_B`` into thrusts, tilts and the granted wrench."""
-        c = command.views
-        c["saturated"][0] = allocate(
-            c["wrench_B"],
-            weight_B,
-            self.matrix,
-            self._inverse,
-            self._limit_n,
-            c["joint_angle"],
-            c["rotor_thrust"],
-            c["allocated_B"],
-        )
+        if command is not self._command or weight_B is not self._weight_B:
+            self._command, self._weight_B = command, weight_B
+            c = command.views
+            self._allocate = bound(
+                allocate,
+                c["wrench_B"],
+                weight_B,
+                self.matrix,
+                self._inverse,
+                self._limit_n,
+                c["joint_angle"],
+                c["rotor_thrust"],
+                c["allocated_B"],
+                c["saturated"],
+            )
+        self._allocate()

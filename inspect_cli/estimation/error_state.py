@@ -22,19 +22,12 @@ from typing import Final
 
 import numpy as np
 
-from inspect_cli.estimation.kalman import (
-    STATES,
-    correct_pose,
-    frame_drifts,
-    pose_innovation,
-    propagate,
-    publish,
-    take_sample,
-)
+from inspect_cli.compiled import bound
+from inspect_cli.estimation.filtering import advance_to_sample, correct_to_pose
+from inspect_cli.estimation.kalman import STATES, publish
 from inspect_cli.records import Estimate, Imu, Pose
 from inspect_cli.schema.positioning import PoseNoise
 from inspect_cli.schema.vehicle import ImuModel
-from inspect_cli.spatial.arrays import Vector
 from inspect_cli.spatial.rotations import quaternion_normalize
 
 GATE: Final = 38.258
@@ -66,7 +59,6 @@ class ErrorStateFilter:
     def __init__(
         self, imu_model: ImuModel, pose_model: PoseNoise, imu_hz: int, pose_hz: int
     ) -> None:
-        self._imu_hz = imu_hz
         self.restart_after = max(2, round(RESTART_S * pose_hz))
         self._bias_variance = np.repeat(
             [imu_model.accel_bias_initial_mps2**2, imu_model.gyro_bias_initial_radps**2], 3
@@ -82,14 +74,17 @@ class ErrorStateFilter:
         attitude_sd = max(pose_model.attitude_noise_rad, ATTITUDE_FLOOR_RAD)
         self._pose_variance = np.repeat([position_sd**2, attitude_sd**2], 3)
         self._walks = np.array(pose_model.walks)
-        self._posed_t = 0.0
         self._p, self._v, self._q = np.zeros(3), np.zeros(3), np.array([1.0, 0.0, 0.0, 0.0])
         self._bias = np.zeros(6)
         self.covariance = np.zeros((STATES, STATES))
-        self._t = 0.0
-        self._held, self._held_t = np.zeros(6), math.nan
-        self._mean = np.zeros(6)
+        self._held, self._times = np.zeros(6), np.array([0.0, math.nan, 0.0])
         self.rejected = 0
+        self._belief = (self._p, self._v, self._q, self._bias, self.covariance)
+        self._sampling = (self._held, self._times, self._noise, float(imu_hz))
+        self._imu: Imu | None = None
+        self._pose: Pose | None = None
+        self._estimate: Estimate | None = None
+        self._corrected: Estimate | None = None
 
     def start(self, pose: Pose, estimate: Estimate) -> None:
         """Begin at rest at a measured pose, with biases unknown as the model says.
@@ -101,47 +96,46 @@ class ErrorStateFilter:
         self._bias[:] = 0.0
         self.covariance[:] = 0.0
         np.fill_diagonal(self.covariance[9:, 9:], self._bias_variance)
-        self._held[:], self._held_t = 0.0, math.nan
-        self._t = self._posed_t = pose.t_s
+        self._held[:] = 0.0
+        self._times[:] = (pose.t_s, math.nan, pose.t_s)
         self._restart_motion(pose)
         self._publish(estimate)
 
     def propagate(self, imu: Imu, estimate: Estimate) -> None:
         """Advance to the time of an inertial sample; one that is not finite is ignored."""
-        t = imu.t_s
-        dt = t - self._t
-        share = 1.0
-        if dt > 0.0 and not math.isnan(self._held_t):
-            share = 0.5 * (t - self._held_t) / dt
-        if not take_sample(self._held, self._mean, imu.f_B, imu.w_B, share):
-            return
-        self._held_t = t
-        if dt > 0.0:
-            self._advance(self._mean, dt)
-        self._publish(estimate)
+        if imu is not self._imu or estimate is not self._estimate:
+            self._imu, self._estimate = imu, estimate
+            self._to_sample = bound(
+                advance_to_sample,
+                *imu.views.values(),
+                *self._belief,
+                *self._sampling,
+                estimate.array,
+            )
+        self._to_sample()
 
     def correct(self, pose: Pose, estimate: Estimate) -> bool:
         """Correct with a pose measurement; False if it was rejected or is not finite."""
-        dt = pose.t_s - self._t
-        if dt > 0.0 and not math.isnan(self._held_t):
-            self._advance(self._held, dt)
-        self._drift(pose.t_s)
-        innovation = pose_innovation(self._p, self._q, pose.p_WB, pose.q_WB)
-        chi2 = correct_pose(
-            self._p,
-            self._v,
-            self._q,
-            self._bias,
-            self.covariance,
-            innovation,
-            self._pose_variance,
-            GATE,
-        )
-        accepted = chi2 <= GATE or self._outvoted(pose, chi2)
-        if accepted:
+        if pose is not self._pose or estimate is not self._corrected:
+            self._pose, self._corrected = pose, estimate
+            self._to_pose = bound(
+                correct_to_pose,
+                *pose.views.values(),
+                *self._belief,
+                *self._sampling,
+                self._walks,
+                self._pose_variance,
+                GATE,
+                estimate.array,
+            )
+        chi2 = self._to_pose()
+        if chi2 <= GATE:
             self.rejected = 0
+            return True
+        if not self._outvoted(pose, chi2):
+            return False
         self._publish(estimate)
-        return accepted
+        return True
 
     def _outvoted(self, pose: Pose, chi2: float) -> bool:
         """Count a rejection; restart from the pose when there were too many."""
@@ -152,19 +146,6 @@ class ErrorStateFilter:
             return False
         self._restart_motion(pose)
         return True
-
-    def _advance(self, sample: Vector, dt: float) -> None:
-        # A sample that serves for longer than its period carries its error all along.
-        stretch = dt * self._imu_hz
-        noise = self._noise if stretch < 1.5 else self._noise * stretch
-        propagate(self._p, self._v, self._q, self._bias, self.covariance, sample, dt, noise)
-        self._t += dt
-
-    def _drift(self, t_s: float) -> None:
-        since, self._posed_t = t_s - self._posed_t, t_s
-        if self._walks.any() and since > 0.0:
-            rate = self._held[3:] - self._bias[3:]
-            frame_drifts(self.covariance, self._q, self._v, rate, self._walks, since)
 
     def _restart_motion(self, pose: Pose) -> None:
         self._p[:] = pose.p_WB
@@ -178,5 +159,4 @@ class ErrorStateFilter:
         self.rejected = 0
 
     def _publish(self, estimate: Estimate) -> None:
-        estimate.t_s = self._t
-        publish(self._p, self._v, self._q, self._bias, self.covariance, self._held, estimate.array)
+        publish(*self._belief, self._held, self._times, estimate.array)

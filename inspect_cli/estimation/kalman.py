@@ -247,10 +247,18 @@ def take_sample(held: Vector, mean: Vector, f: Vector, w: Vector, share: float) 
 
 @kernel
 def publish(
-    p: Vector, v: Vector, q: Vector, bias: Vector, P: Matrix, sample: Vector, estimate: Structured
+    p: Vector,
+    v: Vector,
+    q: Vector,
+    bias: Vector,
+    P: Matrix,
+    sample: Vector,
+    times: Vector,
+    estimate: Structured,
 ) -> None:
-    """Write the belief into the array of an ``Estimate``."""
+    """Write the belief at the time ``times[0]`` into an Estimate (1,)."""
     row = estimate[0]
+    row["t_s"] = times[0]
     for i in range(3):
         row["p_WB"][i] = p[i]
         row["v_WB_W"][i] = v[i]

@@ -28,7 +28,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from inspect_cli.compiled import kernel
+from inspect_cli.compiled import bound, kernel
 from inspect_cli.records import Estimate
 from inspect_cli.spatial.arrays import Matrix, Vector
 from inspect_cli.spatial.constants import GRAVITY_MPS2
@@ -115,6 +115,8 @@ class WrenchObserver:
         self._dt = dt
         self._last = np.zeros(13)
         self._observed = np.zeros(6)
+        self._estimate: Estimate | None = None
+        self._applied: Vector | None = None
 
     def reset(self, estimate: Estimate) -> None:
         """Begin with no external wrench at the estimated motion."""
@@ -126,17 +128,21 @@ class WrenchObserver:
 
     def update(self, estimate: Estimate, applied_wrench_B: Vector) -> None:
         """Write ``estimate.wrench_B``, given the wrench (6,) applied since the last update."""
-        observe(
-            self._mass,
-            self._inertia_com,
-            self._com,
-            self._decay,
-            self._dt,
-            self._last,
-            self._observed,
-            estimate.q_WB,
-            estimate.v_WB_W,
-            estimate.w_WB_B,
-            applied_wrench_B,
-            estimate.wrench_B,
-        )
+        if estimate is not self._estimate or applied_wrench_B is not self._applied:
+            self._estimate, self._applied = estimate, applied_wrench_B
+            self._observe = bound(
+                observe,
+                self._mass,
+                self._inertia_com,
+                self._com,
+                self._decay,
+                self._dt,
+                self._last,
+                self._observed,
+                estimate.q_WB,
+                estimate.v_WB_W,
+                estimate.w_WB_B,
+                applied_wrench_B,
+                estimate.wrench_B,
+            )
+        self._observe()

@@ -8,6 +8,7 @@ from __future__ import annotations
 import numpy as np
 
 from inspect_cli.spatial.arrays import Matrix, Vector
+from inspect_cli.spatial.rotations import cross
 
 VERTICAL_COSINE = float(np.cos(np.radians(1.0)))
 """A tool within 1° of the vertical has no level direction to speak of: it keeps its heading."""
@@ -42,4 +43,4 @@ def heading_orientation(n_W: Vector, heading_hint: Vector) -> Matrix:
 
 
 def _frame(y_T: Vector, z_T: Vector) -> Matrix:
-    return np.column_stack([np.cross(y_T, z_T), y_T, z_T])
+    return np.column_stack([cross(y_T, z_T), y_T, z_T])

@@ -22,11 +22,12 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from inspect_cli.guidance.aim import Aim
-from inspect_cli.guidance.following import HORIZON_S, Following
+from inspect_cli.compiled import bound
+from inspect_cli.guidance.contact_frame import ContactFrame
 from inspect_cli.guidance.motion import Motion, MotionLimits
 from inspect_cli.guidance.quintic import evaluate_motion
 from inspect_cli.guidance.stroke import StrokePath, along, corrected
+from inspect_cli.guidance.surface_tracking import HORIZON_S, SurfaceTracking
 from inspect_cli.guidance.trajectory import (
     CORRECTION_S,
     Stretch,
@@ -63,15 +64,15 @@ class _Approach:
     target: Target
     depth_m: float
     limits: MotionLimits
-    aim: Aim
-    announced: Aim
-    """The aim for which the time of arrival was last set."""
+    frame: ContactFrame
+    announced: ContactFrame
+    """The frame for which the time of arrival was last set."""
     facing_m: float | None = None
     """The distance that the tool keeps until it stands square to a surface just found."""
     faced_s: float = 0.0
     """When it does, as it was planned at the first sight."""
     sliding: bool = False
-    following: Following | None = None
+    tracking: SurfaceTracking | None = None
 
 
 class Pursuit:
@@ -99,8 +100,11 @@ class Pursuit:
         self._approach: _Approach | None = None
         self._arrival_s = 0.0
         self._arm_angle = self.reference.arm_angle
+        self._has_arm = bool(self._arm_angle.size)
         self._p_BT = self._tool_offset()
+        self._stretch: Stretch | None = None
         views = self.reference.views
+        self._t_s = views["t_s"]
         self._written = (
             views["p_WB"],
             views["q_WB"],
@@ -132,11 +136,11 @@ class Pursuit:
         """
         limits = MotionLimits.of(self.capabilities, speed_mps)
         start = self._trajectory.motion(t_s)
-        aim = self._believed(target, start)
-        goal = self._posture_for(target, aim, depth_m)
+        frame = self._believed(target, start)
+        goal = self._posture_for(target, frame, depth_m)
         if goal is None:
             raise ValueError(f"no posture puts the tool {depth_m} m behind {target.label}")
-        self._approach = _Approach(target, depth_m, limits, aim, aim)
+        self._approach = _Approach(target, depth_m, limits, frame, frame)
         self._follow(Trajectory(to_goal(t_s, start, goal, limits)))
 
     def slide(self, t_s: float, target: Target) -> None:
@@ -151,8 +155,8 @@ class Pursuit:
         approach.sliding = True
         limits = MotionLimits.of(self.capabilities)
         if target.following is not None:
-            approach.following = Following.begin(t_s, target.following, limits)
-            self._arrival_s = approach.following.end_s
+            approach.tracking = SurfaceTracking.begin(t_s, target.following, limits)
+            self._arrival_s = approach.tracking.end_s
             return
         self._follow(Trajectory(self._along_stroke(t_s, approach, limits)))
 
@@ -171,14 +175,14 @@ class Pursuit:
         approach = self._approach
         if approach is None or surface.valid != 1.0:
             return
-        if approach.following is not None:
-            self._advance(t_s, approach, approach.following, surface)
+        if approach.tracking is not None:
+            self._advance(t_s, approach, approach.tracking, surface)
             return
         seen = self._expected(approach).seen(surface)
         if seen is None:
             self.implausible += 1
             return
-        if not approach.aim.found:
+        if not approach.frame.found:
             approach.facing_m = max(surface.distance, approach.target.standoff_m)
             self._correct(t_s, approach, seen, anew=True)
             approach.faced_s = self._trajectory.end_s
@@ -188,15 +192,15 @@ class Pursuit:
             approach.facing_m = None
         self._correct(t_s, approach, seen, anew=faced)
 
-    def _correct(self, t_s: float, approach: _Approach, seen: Aim, anew: bool) -> None:
-        """Plan anew from the reference of this instant to the set-point in front of an aim."""
+    def _correct(self, t_s: float, approach: _Approach, seen: ContactFrame, anew: bool) -> None:
+        """Plan anew from the reference of this instant to the set-point of a contact frame."""
         facing = approach.facing_m
         depth_m = approach.depth_m if facing is None else -facing
         goal = self._posture_for(approach.target, seen, depth_m)
         if goal is None:
             self.implausible += 1
             return
-        approach.aim = seen
+        approach.frame = seen
         limits = approach.limits
         if facing is not None:
             limits = MotionLimits.of(self.capabilities, FACING_MPS)
@@ -216,7 +220,7 @@ class Pursuit:
             return self._believed(target, self._trajectory.motion(t_s)).seen(surface) is None
         if target.following is not None:
             return self._believed(target, None).seen(surface) is None
-        return Aim.planned(target).seen(surface) is None
+        return ContactFrame.planned(target).seen(surface) is None
 
     def hold(self, t_s: float) -> None:
         """Brake within the limits and stay there."""
@@ -231,41 +235,47 @@ class Pursuit:
     def write(self, t_s: float) -> None:
         """Write the motion of the instant into ``reference``."""
         stretch = self._trajectory.at(t_s)
-        if self._arm_angle.size:
+        if self._has_arm:
             self._arm_angle[:] = stretch.arm_motion(t_s)[0]
-            self._p_BT = self._tool_offset()
-        evaluate_motion(
-            t_s - stretch.start_s,
-            stretch.duration_s,
-            stretch.turn_s,
-            stretch.position,
-            stretch.rotation,
-            stretch.q_start,
-            self._p_BT,
-            *self._written,
-        )
-        self.reference.t_s = t_s
+            self._p_BT[:] = self._tool_offset()
+        if stretch is not self._stretch:
+            self._stretch, self._start_s = stretch, stretch.start_s
+            self._evaluate = bound(
+                evaluate_motion,
+                stretch.duration_s,
+                stretch.turn_s,
+                stretch.position,
+                stretch.rotation,
+                stretch.q_start,
+                self._p_BT,
+                *self._written,
+                then=(0.0,),
+            )
+        self._evaluate(t_s - self._start_s)
+        self._t_s[0] = t_s
 
     def _follow(self, trajectory: Trajectory) -> None:
         self._trajectory = trajectory
         self._arrival_s = trajectory.end_s
 
-    def _believed(self, target: Target, now: Motion | None) -> Aim:
-        """The aim at a target as it is believed; where the tool has slid to, the place it is at."""
+    def _believed(self, target: Target, now: Motion | None) -> ContactFrame:
+        """The contact frame of a target as believed; once the tool slides, the one where it is."""
         approach = self._approach
         if approach is None or approach.target != target:
-            return Aim.planned(target)
+            return ContactFrame.planned(target)
         if not approach.sliding or now is None:
-            return approach.aim
+            return approach.frame
         p_WT, R_WT = self._tool(now)
-        return Aim.of_set_point(p_WT, R_WT, approach.depth_m, approach.aim.level)
+        return ContactFrame.of_set_point(p_WT, R_WT, approach.depth_m, approach.frame.level)
 
-    def _expected(self, approach: _Approach) -> Aim:
+    def _expected(self, approach: _Approach) -> ContactFrame:
         """What an estimate is held against: the plan where there is one, else what was found.
 
         Against the plan, so that a chain of plausible steps cannot walk off it.
         """
-        return approach.aim if approach.target.following else Aim.planned(approach.target)
+        return (
+            approach.frame if approach.target.following else ContactFrame.planned(approach.target)
+        )
 
     def _along_stroke(self, t_s: float, approach: _Approach, limits: MotionLimits) -> list[Stretch]:
         """The set-points of the target's stroke, on the surface as it was last corrected."""
@@ -273,7 +283,7 @@ class Pursuit:
         if stroke is None or target.surface is None:
             raise ValueError(f"{target.label} has no line to slide along")
         prim = self._surfaces[target.surface]
-        aim_at = corrected(prim, Aim.planned(target), approach.aim)
+        aim_at = corrected(prim, ContactFrame.planned(target), approach.frame)
 
         def posture_at(u: float, v: float) -> Posture:
             posture = self._posture_for(target, aim_at(u, v), approach.depth_m)
@@ -289,7 +299,7 @@ class Pursuit:
         return stretches
 
     def _advance(
-        self, t_s: float, approach: _Approach, following: Following, surface: SurfaceEstimate
+        self, t_s: float, approach: _Approach, tracking: SurfaceTracking, surface: SurfaceEstimate
     ) -> None:
         """Aim ahead along the plane that is seen where the reference is now."""
         now = self._trajectory.motion(t_s)
@@ -297,17 +307,17 @@ class Pursuit:
         if seen is None:
             self.implausible += 1
             return
-        way_m, speed_mps, change_mps2 = following.ahead(t_s)
-        following.learn(seen.n_W)
-        ahead = seen.at(*following.surface_at(seen, way_m))
+        way_m, speed_mps, change_mps2 = tracking.ahead(t_s)
+        tracking.learn(seen.n_W)
+        ahead = seen.at(*tracking.surface_at(seen, way_m))
         goal = self._posture_for(approach.target, ahead, approach.depth_m)
         if goal is None:
             self.implausible += 1
             return
-        approach.aim = seen
-        forward = following.direction(ahead.R_WT)
-        w_W = speed_mps * np.cross(ahead.n_W, following.bend_W)
-        v_WT_W = speed_mps * (forward - approach.depth_m * following.bend_W)
+        approach.frame = seen
+        forward = tracking.direction(ahead.R_WT)
+        w_W = speed_mps * np.cross(ahead.n_W, tracking.bend_W)
+        v_WT_W = speed_mps * (forward - approach.depth_m * tracking.bend_W)
         v_WB_W = v_WT_W - np.cross(w_W, ahead.set_point(approach.depth_m) - goal.p_WB)
         passing = goal.p_WB, v_WB_W, change_mps2 * forward
         # Over a horizon the tool turns by so little that the rate of φ is the body's.
@@ -318,7 +328,7 @@ class Pursuit:
         limits = MotionLimits.of(self.capabilities)
         braking = to_stop(stretch.end_s, stretch.motion(stretch.end_s), limits)
         self._trajectory = Trajectory([stretch, braking] if speed_mps > 0.0 else [stretch])
-        self._arrival_s = following.end_s
+        self._arrival_s = tracking.end_s
 
     def _tool(self, motion: Motion) -> tuple[Vector, Matrix]:
         """(p_WT, R_WT) of the reference in a motion."""
@@ -330,12 +340,12 @@ class Pursuit:
         p_BT, _ = self.capabilities.frame_pose(at_origin(self._arm_angle), TOOL)
         return np.array(p_BT, dtype=np.float64)
 
-    def _posture_for(self, target: Target, aim: Aim, depth_m: float) -> Posture | None:
+    def _posture_for(self, target: Target, frame: ContactFrame, depth_m: float) -> Posture | None:
         """The posture with the tip ``depth_m`` behind the surface, the closest to the planned.
 
         Where the set-point lies behind it, the surface pushes with the force that the plan
         expects.
         """
-        goals = {TOOL: FramePose(aim.set_point(depth_m), aim.R_WT)}
-        loads = pushed_along(aim.n_W, target.expected_force_n) if depth_m > 0.0 else FREE
+        goals = {TOOL: FramePose(frame.set_point(depth_m), frame.R_WT)}
+        loads = pushed_along(frame.n_W, target.expected_force_n) if depth_m > 0.0 else FREE
         return self.capabilities.solve(goals, loads, target.contact.posture) or None

@@ -102,7 +102,6 @@ def body_rates(
 
 @kernel
 def evaluate_motion(
-    t: float,
     duration: float,
     turn_duration: float,
     position: Matrix,
@@ -116,6 +115,7 @@ def evaluate_motion(
     a_WB_W: Vector,
     alpha_WB_B: Vector,
     p_WT: Vector,
+    t: float,
 ) -> None:
     """Write the body's motion ``t`` s after the start of a stretch; it rests after the end.
 

@@ -14,7 +14,7 @@ from dataclasses import replace
 import numpy as np
 from scipy.interpolate import make_interp_spline
 
-from inspect_cli.guidance.aim import Aim
+from inspect_cli.guidance.contact_frame import ContactFrame
 from inspect_cli.guidance.progress import Progress
 from inspect_cli.guidance.quintic import quintic_between
 from inspect_cli.guidance.trajectory import Stretch, turn_between
@@ -31,8 +31,10 @@ PostureAt = Callable[[float, float], Posture]
 """The posture whose tool is at the set-point of (u, v) m."""
 
 
-def corrected(prim: Structured, planned: Aim, believed: Aim) -> Callable[[float, float], Aim]:
-    """The aim at each (u, v) m of a surface that is moved as its contact point was.
+def corrected(
+    prim: Structured, planned: ContactFrame, believed: ContactFrame
+) -> Callable[[float, float], ContactFrame]:
+    """The contact frame at each (u, v) m of a surface that is moved as its contact point was.
 
     The believed surface, PRIMITIVE (1,), is turned by the least rotation that brings the planned
     normal onto the one that was seen, and shifted so that the contact points coincide. The tool
@@ -40,7 +42,7 @@ def corrected(prim: Structured, planned: Aim, believed: Aim) -> Callable[[float,
     """
     R = _least_rotation(planned.n_W, believed.n_W)
 
-    def aim_at(u: float, v: float) -> Aim:
+    def aim_at(u: float, v: float) -> ContactFrame:
         p_WC = believed.p_WC + R @ (point_at(prim, 0, u, v) - planned.p_WC)
         n_W = R @ normal_at(prim, 0, u, v)
         carried = replace(believed, R_WT=_least_rotation(believed.n_W, n_W) @ believed.R_WT)

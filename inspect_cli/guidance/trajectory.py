@@ -119,7 +119,6 @@ class Stretch:
         p, v, a, w, alpha, tip = np.empty((6, 3))
         q = np.empty(4)
         evaluate_motion(
-            t_s - self.start_s,
             self.duration_s,
             self.turn_s,
             self.position,
@@ -133,6 +132,7 @@ class Stretch:
             a,
             alpha,
             tip,
+            t_s - self.start_s,
         )
         return Motion(p, q, v, w, a, alpha, self.arm_motion(t_s))
 
@@ -162,7 +162,15 @@ class Trajectory:
         if not stretches:
             raise ValueError("a trajectory leads somewhere: it has at least one stretch")
         self._stretches = list(stretches)
-        self._current = 0
+        self._current = -1
+        self._next()
+
+    def _next(self) -> None:
+        """Go on to the next stretch; the last one holds for ever."""
+        self._current += 1
+        self._stretch = self._stretches[self._current]
+        is_last = self._current + 1 == len(self._stretches)
+        self._until_s = math.inf if is_last else self._stretch.end_s
 
     @classmethod
     def resting(cls, t_s: float, posture: Posture) -> Trajectory:
@@ -178,11 +186,9 @@ class Trajectory:
 
     def at(self, t_s: float) -> Stretch:
         """The stretch that holds at ``t_s``. Time is asked in order: it does not run back."""
-        stretch = self._stretches[self._current]
-        while t_s >= stretch.end_s and self._current + 1 < len(self._stretches):
-            self._current += 1
-            stretch = self._stretches[self._current]
-        return stretch
+        while t_s >= self._until_s:
+            self._next()
+        return self._stretch
 
     def motion(self, t_s: float) -> Motion:
         """The motion at ``t_s``."""

@@ -19,8 +19,8 @@ from inspect_cli.log import names
 from inspect_cli.log.decode import UndecodableError, decode_rows, log_times, payloads
 from inspect_cli.log.foxglove import Cloud, Event, level_of, points_of
 from inspect_cli.log.layout import Bytes
+from inspect_cli.log.mcap_reader import RawLog, raw_log
 from inspect_cli.log.rasters import TrueRaster, decoded
-from inspect_cli.log.walk import RawLog, walk
 from inspect_cli.records import CORE_RECORDS, Record
 from inspect_cli.schema.mission import Mission
 from inspect_cli.schema.modes import ModeTable
@@ -169,7 +169,7 @@ def read_log(path: Path) -> RunLog:
     writers are read too, see ``decode``. Raises LogError where the file cannot be read, is no
     MCAP log, is damaged, or was cut before its mission, platform, plan and modes were written.
     """
-    raw = walk(path)
+    raw = raw_log(path)
     if not raw.finished:
         _require_attachments(raw)
     status, reason = _outcome(raw)

@@ -72,7 +72,7 @@ def plan_of(
     return Plan(
         mission=mission.name,
         platform=platform_name,
-        impedance=mission.impedance,
+        impedance=mission.impedance if capabilities.impedances else None,
         surfaces=surfaces,
         start=posture_model(itinerary.standing),
         targets=tuple(segment.target(index) for index, segment in enumerate(segments)),

@@ -27,9 +27,14 @@ def disagreements(file: MissionFile, node: Node, platform: PlatformBase) -> list
 
 
 def _missing_profiles(file: MissionFile, node: Node, platform: PlatformBase) -> list[Problem]:
-    """Impedance profiles that the mission or one of its tasks names and the platform lacks."""
+    """Impedance profiles that the mission or one of its tasks names and the platform lacks.
+
+    A platform without any is not asked for the mission's default.
+    """
     known = list(platform.impedances)
-    named: list[tuple[str | None, tuple[Step, ...]]] = [(file.impedance, ("impedance",))]
+    named: list[tuple[str | None, tuple[Step, ...]]] = []
+    if known or "impedance" in file.model_fields_set:
+        named.append((file.impedance, ("impedance",)))
     named += [(task.impedance, ("tasks", k, "impedance")) for k, task in enumerate(file.tasks)]
     return [
         Problem(

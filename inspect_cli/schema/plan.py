@@ -22,7 +22,10 @@ def _unit(value: tuple[float, float, float, float]) -> tuple[float, float, float
 
 
 Quaternion = Annotated[tuple[float, float, float, float], AfterValidator(_unit)]
-LegKind = Literal["takeoff", "transit", "hold", "approach", "press", "slide", "retreat", "land"]
+LegKind = Name
+"""``takeoff``, ``transit``, ``land``, or as a task's planner calls it: as a rule like a mode."""
+GOING = ("takeoff", "transit", "land")
+"""Kinds of leg that lead somewhere without having to be about a target."""
 ToolDirection = Literal["x", "-x", "y", "-y"]
 
 
@@ -77,11 +80,11 @@ class Stroke(Strict):
     """(u, v) of the points of each smooth piece; the tool rests between pieces."""
     speed_mps: Positive
     drawing: Annotated[int, Field(ge=0)] = 0
-    """Which of the mission's drawings it belongs to,"""
+    """Place in the mission of the task that draws it."""
     trial: Annotated[int, Field(ge=0)] = 0
-    """for the how manieth time it is drawn,"""
+    """Repetition index of the drawing, from 0."""
     part: Annotated[int, Field(ge=0)] = 0
-    """and which of the drawing's strokes it is."""
+    """Index of the stroke within the drawing, from 0."""
 
 
 class Following(Strict):
@@ -110,8 +113,9 @@ class Target(Strict):
     index: Annotated[int, Field(ge=0)]
     label: str
     kind: Literal["contact", "stroke", "following", "pose", "perch"]
-    impedance: Name
-    """The profile of the platform that is flown with, from the way there on."""
+    impedance: Name | None = None
+    """The profile of the platform that is flown with, from the way there on; None where it has
+    none."""
     surface: Name | None
     uv_m: tuple[float, float] | None
     """Coordinates on the surface."""
@@ -174,8 +178,9 @@ class Plan(Strict):
     schema_version: Annotated[Literal[1], Field(alias="schema")] = 1
     mission: Name
     platform: Name
-    impedance: Name
-    """The profile that is flown with where no target says otherwise."""
+    impedance: Name | None
+    """The profile that is flown with where no target says otherwise; None where the platform has
+    none."""
     surfaces: tuple[PlannedSurface, ...]
     start: PostureModel
     targets: Annotated[tuple[Target, ...], Field(min_length=1)]
@@ -199,8 +204,7 @@ class Plan(Strict):
             if target.index != place:
                 raise ValueError(f"target {place} has the index {target.index}")
         for leg in self.legs:
-            needs_target = leg.kind in ("hold", "approach", "press", "slide", "retreat")
-            if leg.target is None and needs_target:
+            if leg.target is None and leg.kind not in GOING:
                 raise ValueError(f"a leg of kind {leg.kind} has no target")
             if leg.target is not None and not 0 <= leg.target < len(self.targets):
                 raise ValueError(f"a leg leads to target {leg.target}, which is not there")

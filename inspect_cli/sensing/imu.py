@@ -12,11 +12,11 @@ from __future__ import annotations
 
 import numpy as np
 
-from inspect_cli.compiled import kernel
-from inspect_cli.records import Imu
+from inspect_cli.compiled import bound, kernel
+from inspect_cli.records import Imu, State
 from inspect_cli.schema.vehicle import ImuModel
 from inspect_cli.sensing.instrument import Noise, Surroundings
-from inspect_cli.spatial.arrays import Vector
+from inspect_cli.spatial.arrays import Matrix, Vector
 from inspect_cli.spatial.constants import GRAVITY_MPS2
 from inspect_cli.spatial.rotations import rotate_back
 from inspect_cli.truth.snapshot import Truth
@@ -24,23 +24,30 @@ from inspect_cli.truth.snapshot import Truth
 
 @kernel
 def measure_motion(
+    t: Vector,
     q: Vector,
     a_W: Vector,
     w_B: Vector,
-    noise: Vector,
+    noises: Matrix,
     sd: Vector,
     bias: Vector,
+    t_measured: Vector,
     f_measured: Vector,
     w_measured: Vector,
+    draw: int,
 ) -> None:
-    """Write specific force and rate, and let the biases walk.
+    """Write the time (1,), specific force and rate, and let the biases walk.
 
-    ``noise`` (12,) standard normal for f, w, b_f, b_w; ``sd`` (4,) their standard deviations per
-    sample; ``bias`` (6,) = (b_f, b_w), changed in place.
+    ``noises[draw]`` (12,) is standard normal for f, w, b_f, b_w; ``sd`` (4,) are their standard
+    deviations per sample; ``bias`` (6,) = (b_f, b_w) is changed in place.
     """
-    push = a_W.copy()
+    noise = noises[draw]
+    push = np.empty(3)
+    for i in range(3):
+        push[i] = a_W[i]
     push[2] += GRAVITY_MPS2
     f_B = rotate_back(q, push)
+    t_measured[0] = t[0]
     for i in range(3):
         f_measured[i] = f_B[i] + bias[i] + sd[0] * noise[i]
         w_measured[i] = w_B[i] + bias[3 + i] + sd[1] * noise[3 + i]
@@ -65,22 +72,29 @@ class ImuSensor:
         initial = [model.accel_bias_initial_mps2, model.gyro_bias_initial_radps]
         self._bias = np.repeat(initial, 3) * rng.standard_normal(6)
         self._noise = Noise(rng, 12)
+        self._seen: State | None = None
 
     def sample(self, truth: Truth) -> Imu:
         """Measure now."""
-        state, measurement = truth.state, self.measurement
-        measurement.t_s = state.t_s
-        measure_motion(
-            state.q_WB,
-            state.a_WB_W,
-            state.w_WB_B,
-            self._noise.draw(),
-            self._sd,
-            self._bias,
-            measurement.f_B,
-            measurement.w_B,
-        )
-        return measurement
+        if truth.state is not self._seen:
+            self._seen = truth.state
+            true, measured = truth.state.views, self.measurement.views
+            self._measure = bound(
+                measure_motion,
+                true["t_s"],
+                true["q_WB"],
+                true["a_WB_W"],
+                true["w_WB_B"],
+                self._noise.block,
+                self._sd,
+                self._bias,
+                measured["t_s"],
+                measured["f_B"],
+                measured["w_B"],
+                then=(0,),
+            )
+        self._measure(self._noise.next_row())
+        return self.measurement
 
 
 def imu_sensor(model: ImuModel, around: Surroundings) -> ImuSensor:

@@ -7,9 +7,9 @@ from typing import Final, Protocol
 
 import numpy as np
 
-from inspect_cli.records import Measurement
+from inspect_cli.records import Lengths, Measurement
 from inspect_cli.schema.truth import TruthModel
-from inspect_cli.spatial.arrays import Vector
+from inspect_cli.spatial.arrays import Matrix, Vector
 from inspect_cli.truth.geometry import StructureTruth
 from inspect_cli.truth.snapshot import Truth
 
@@ -18,20 +18,28 @@ BLOCK: Final = 256
 
 
 class Noise:
-    """A stream of independent standard normal vectors (``width``,) from one generator."""
+    """A stream of independent standard normal vectors (``width``,) from one generator.
+
+    ``block`` (BLOCK, width) holds those that were drawn last.
+    """
 
     def __init__(self, rng: np.random.Generator, width: int) -> None:
         self._rng = rng
-        self._block = np.empty((BLOCK, width))
+        self.block: Matrix = np.empty((BLOCK, width))
         self._next = BLOCK
+
+    def next_row(self) -> int:
+        """The row of ``block`` with the next vector; it stays as it is until the next call."""
+        if self._next == BLOCK:
+            self._rng.standard_normal(out=self.block)
+            self._next = 0
+        row = self._next
+        self._next = row + 1
+        return row
 
     def draw(self) -> Vector:
         """The next vector: a view that stays as it is until the next call."""
-        if self._next == BLOCK:
-            self._rng.standard_normal(out=self._block)
-            self._next = 0
-        row: Vector = self._block[self._next]
-        self._next += 1
+        row: Vector = self.block[self.next_row()]
         return row
 
 
@@ -56,5 +64,7 @@ class Surroundings:
     """The true surfaces."""
     truth: TruthModel
     """What else is so in this flight."""
+    lengths: Lengths
+    """The vehicle's numbers that shapes in records refer to, such as ``n_joints``."""
     rng: np.random.Generator
     """The sensor's own generator."""

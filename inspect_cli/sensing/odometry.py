@@ -27,13 +27,13 @@ from __future__ import annotations
 
 import numpy as np
 
-from inspect_cli.compiled import kernel
-from inspect_cli.records import Odometry
+from inspect_cli.compiled import bound, kernel
+from inspect_cli.records import Odometry, State
 from inspect_cli.schema.base import Triple
 from inspect_cli.schema.vehicle import OdometryModel
 from inspect_cli.sensing.instrument import Noise, Surroundings
 from inspect_cli.sensing.pose_tracker import measure_pose
-from inspect_cli.spatial.arrays import Vector
+from inspect_cli.spatial.arrays import Matrix, Vector
 from inspect_cli.spatial.rotations import (
     quaternion_conjugate,
     quaternion_exp,
@@ -72,6 +72,39 @@ def drift(
         last[3 + i] = q[i]
 
 
+@kernel
+def dead_reckon(
+    t: Vector,
+    p: Vector,
+    q: Vector,
+    noises: Matrix,
+    steady: Vector,
+    tilt: Vector,
+    last: Vector,
+    walks: Vector,
+    scale: float,
+    believed: Vector,
+    white: Vector,
+    t_measured: Vector,
+    p_measured: Vector,
+    q_measured: Vector,
+    draw: int,
+) -> None:
+    """Write time (1,) and pose, measured with the noise ``noises[draw]`` (10,).
+
+    ``steady`` (3,) m/s is u in W, ``tilt`` (4,) the misalignment as a quaternion, ``white`` (2,)
+    = (σ_w, σ_θ). ``t_measured`` before the call is the time of the last sample.
+    """
+    noise = noises[draw]
+    since = t[0] - t_measured[0]
+    for i in range(3):
+        believed[i] += steady[i] * since
+    drift(p, q, last, walks, scale, noise[0:4], believed)
+    turned = quaternion_multiply(yaw_turn(believed[3]), quaternion_multiply(q, tilt))
+    t_measured[0] = t[0]
+    measure_pose(believed[0:3], turned, noise[4:10], white, p_measured, q_measured)
+
+
 class OdometrySensor:
     """Pose of the body, by adding up its motion from the first sample on.
 
@@ -96,36 +129,40 @@ class OdometrySensor:
         self._noise = Noise(rng, 10)
         self._last = np.zeros(7)
         self._believed = np.zeros(4)
-        self._sampled_s = 0.0
+        self._state: State | None = None
         self._started = False
 
     def sample(self, truth: Truth) -> Odometry:
         """Measure now."""
         state = truth.state
-        p, q = state.p_WB, state.q_WB
         if not self._started:
-            self._believed[:3] = self._last[:3] = p
-            self._last[3:] = q
-            self._sampled_s = state.t_s
+            self._believed[:3] = self._last[:3] = state.p_WB
+            self._last[3:] = state.q_WB
+            self.measurement.t_s = state.t_s
             self._started = True
-        noise = self._noise.draw()
-        self._believed[:3] += self._drift_mps * (state.t_s - self._sampled_s)
-        self._sampled_s = state.t_s
-        drift(p, q, self._last, self._walks, self._scale, noise[:4], self._believed)
-        turned = quaternion_multiply(
-            yaw_turn(self._believed[3]), quaternion_multiply(q, self._tilt)
-        )
-        measurement = self.measurement
-        measurement.t_s = state.t_s
-        measure_pose(
-            self._believed[:3],
-            turned,
-            noise[4:],
-            self._white,
-            measurement.p_WB,
-            measurement.q_WB,
-        )
-        return measurement
+        if state is not self._state:
+            self._state = state
+            true, measured = state.views, self.measurement.views
+            self._measure = bound(
+                dead_reckon,
+                true["t_s"],
+                true["p_WB"],
+                true["q_WB"],
+                self._noise.block,
+                self._drift_mps,
+                self._tilt,
+                self._last,
+                self._walks,
+                self._scale,
+                self._believed,
+                self._white,
+                measured["t_s"],
+                measured["p_WB"],
+                measured["q_WB"],
+                then=(0,),
+            )
+        self._measure(self._noise.next_row())
+        return self.measurement
 
 
 def odometry_sensor(model: OdometryModel, around: Surroundings) -> OdometrySensor:

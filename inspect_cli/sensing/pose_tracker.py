@@ -7,11 +7,11 @@ from __future__ import annotations
 
 import numpy as np
 
-from inspect_cli.compiled import kernel
-from inspect_cli.records import Pose
+from inspect_cli.compiled import bound, kernel
+from inspect_cli.records import Pose, State
 from inspect_cli.schema.vehicle import PoseTrackerModel
 from inspect_cli.sensing.instrument import Noise, Surroundings
-from inspect_cli.spatial.arrays import Vector
+from inspect_cli.spatial.arrays import Matrix, Vector
 from inspect_cli.spatial.rotations import (
     quaternion_exp,
     quaternion_multiply,
@@ -34,6 +34,23 @@ def measure_pose(
         q_measured[i] = measured[i]
 
 
+@kernel
+def track(
+    t: Vector,
+    p: Vector,
+    q: Vector,
+    noises: Matrix,
+    sd: Vector,
+    t_measured: Vector,
+    p_measured: Vector,
+    q_measured: Vector,
+    draw: int,
+) -> None:
+    """Write time (1,) and pose, measured with the noise ``noises[draw]``."""
+    t_measured[0] = t[0]
+    measure_pose(p, q, noises[draw], sd, p_measured, q_measured)
+
+
 class PoseSensor:
     """Position and attitude of the body."""
 
@@ -41,20 +58,27 @@ class PoseSensor:
         self.measurement = Pose.create()
         self._sd = np.array([model.position_noise_m, model.attitude_noise_rad])
         self._noise = Noise(rng, 6)
+        self._seen: State | None = None
 
     def sample(self, truth: Truth) -> Pose:
         """Measure now."""
-        state, measurement = truth.state, self.measurement
-        measurement.t_s = state.t_s
-        measure_pose(
-            state.p_WB,
-            state.q_WB,
-            self._noise.draw(),
-            self._sd,
-            measurement.p_WB,
-            measurement.q_WB,
-        )
-        return measurement
+        if truth.state is not self._seen:
+            self._seen = truth.state
+            true, measured = truth.state.views, self.measurement.views
+            self._track = bound(
+                track,
+                true["t_s"],
+                true["p_WB"],
+                true["q_WB"],
+                self._noise.block,
+                self._sd,
+                measured["t_s"],
+                measured["p_WB"],
+                measured["q_WB"],
+                then=(0,),
+            )
+        self._track(self._noise.next_row())
+        return self.measurement
 
 
 def pose_tracker(model: PoseTrackerModel, around: Surroundings) -> PoseSensor:

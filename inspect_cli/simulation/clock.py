@@ -10,12 +10,11 @@ the physics run in between.
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
 from math import gcd, lcm
+from typing import NamedTuple
 
 
-@dataclass(frozen=True)
-class Tick:
+class Tick(NamedTuple):
     """A moment at which something is due."""
 
     step: int

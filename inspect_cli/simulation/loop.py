@@ -91,9 +91,14 @@ class Flight:
         self.plan = plan
         self.contact = ContactTruth(structure)
         state = self.plant.state
-        self.truth = Truth(state, partial(self.contact.update, state), self.plant.wall_wrench)
+        self.truth = Truth(
+            state,
+            partial(self.contact.update, state),
+            self.plant.wall_wrench,
+            self.plant.contact_wrench,
+        )
         judges = judges_of(platform, plan.instruments)
-        self.mounts = mounts_of(platform, structure, truth, seed, estimation, judges)
+        self.mounts = mounts_of(platform, lengths, structure, truth, seed, estimation, judges)
         self.stack = vehicle.flight_stack(plan, estimation)
 
         limit_s = 60.0 + 2.0 * plan.duration_s

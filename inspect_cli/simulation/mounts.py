@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Collection, Iterator
 from typing import TypeAlias
 
-from inspect_cli.records import Measurement
+from inspect_cli.records import Lengths, Measurement
 from inspect_cli.schema.positioning import Estimation
 from inspect_cli.schema.truth import WALL, TruthModel
 from inspect_cli.schema.vehicle import (
@@ -49,6 +49,7 @@ class Mount:
 
 def mounts_of(
     platform: PlatformBase,
+    lengths: Lengths,
     structure: StructureTruth,
     truth: TruthModel,
     seed: int,
@@ -69,7 +70,7 @@ def mounts_of(
     ]
     mounts = []
     for name, model in sorted(chosen, key=lambda item: kinds.index(item[1].kind)):
-        around = Surroundings(structure, truth, component_rng(seed, name))
+        around = Surroundings(structure, truth, lengths, component_rng(seed, name))
         mounts.append(Mount(name, model.rate_hz, simulated(model, around)))
     mounts += _wall_sensor(structure, seed)
     faults = Faults(truth.faults)

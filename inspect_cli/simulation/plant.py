@@ -13,11 +13,14 @@ from collections.abc import Sequence
 import mujoco
 import numpy as np
 
+from inspect_cli.compiled import bound
+from inspect_cli.errors import InputError
 from inspect_cli.interfaces import TOOL, Posture
 from inspect_cli.records import Command, Lengths, State
 from inspect_cli.simulation.addresses import addresses_of, contact_addresses
 from inspect_cli.simulation.plant_kernels import move_drives, read_state, read_wrench, set_controls
 from inspect_cli.simulation.plates import Plates
+from inspect_cli.simulation.stepping import advance, refresh
 from inspect_cli.simulation.world import WALL_SENSOR
 from inspect_cli.spatial.arrays import Vector
 from inspect_cli.spatial.rotations import cross
@@ -89,7 +92,6 @@ class Plant:
         # The arrays below are views into MuJoCo's memory; they are looked up once.
         data = self.data
         self._tip_W, self._tip_axes = data.site_xpos[self._tip], data.site_xmat[self._tip]
-        self._sources = (data.qpos, data.qvel, data.qacc, data.qfrc_constraint)
         self._applied, self._activation = data.qfrc_applied, data.act
         self._sensors = data.sensordata
         self._motion = Motion(data.qpos[:3], data.qpos[3:7], data.qvel[:3], self._tip_W)
@@ -98,6 +100,24 @@ class Plant:
         self._walls = [data.sensordata[s.adr[0] : s.adr[0] + s.dim[0]] for s in walls]
         self._ctrl, self._dynprm = data.ctrl, model.actuator_dynprm
         self._warnings = data.warning.number
+        here = model._address, data._address
+        self._advance = bound(advance, *here, then=(1,))
+        self._refresh = bound(refresh, *here)
+        self._read = bound(
+            read_state,
+            self._where,
+            data.qpos,
+            data.qvel,
+            data.qacc,
+            data.qfrc_constraint,
+            self._applied,
+            self._sensors,
+            self._tip_W,
+            self._tip_axes,
+            self._activation,
+            self.state.array,
+        )
+        self._taken: Command | None = None
 
     def place(self, posture: Posture) -> None:
         """Put the vehicle somewhere at rest; servos hold the joints where the posture has them."""
@@ -115,17 +135,8 @@ class Plant:
 
     def observe(self, t_s: float) -> State:
         """The true state now; kinematics are refreshed so that the tip does not lag a step."""
-        mujoco.mj_kinematics(self.model, self.data)
-        read_state(
-            self._where,
-            *self._sources,
-            self._applied,
-            self._sensors,
-            self._tip_W,
-            self._tip_axes,
-            self._activation,
-            self.state.array,
-        )
+        self._refresh()
+        self._read()
         self.state.t_s = t_s
         return self.state
 
@@ -138,6 +149,20 @@ class Plant:
             wrench[3:] += contact[3:6] + cross(contact[6:9], force)
         return wrench
 
+    def contact_wrench(self, name: str) -> Vector:
+        """Force on a contact and torque about the origin of its frame, (6,) in W.
+
+        Raises:
+            InputError: the vehicle has no contact of that name.
+        """
+        if name not in self.contacts:
+            known = ", ".join(self.contacts)
+            raise InputError(f"the vehicle has no contact '{name}'", hint=f"it has: {known}")
+        record = self.contacts[name]
+        places, origin_W = self._contacts[list(self.contacts).index(name)]
+        read_wrench(places, self._sensors, origin_W, record.array)
+        return np.concatenate([record.f_W, record.t_W])
+
     def observe_contacts(self, t_s: float) -> None:
         """Read the wrench on each contact; ``observe`` has refreshed the kinematics."""
         for record, (places, origin_W) in zip(self.contacts.values(), self._contacts, strict=True):
@@ -146,26 +171,33 @@ class Plant:
 
     def apply(self, command: Command) -> None:
         """Take a command."""
-        set_controls(
-            self._where,
-            command.views["rotor_thrust"],
-            command.views["joint_angle"],
-            self._activation,
-            self._time_up,
-            self._time_down,
-            self._max_turn,
-            self._ctrl,
-            self._dynprm,
-        )
+        if command is not self._taken:
+            self._taken = command
+            self._bind(command)
+        for write in self._writes:
+            write()
 
-        if self._where.drives.size:
-            move_drives(
+    def _bind(self, command: Command) -> None:
+        """Look up once how this command is written into MuJoCo's controls."""
+        views = command.views
+        self._writes = [
+            bound(
+                set_controls,
                 self._where,
-                command.views["drive_speed"],
-                *self._drive_limits,
-                self.data.qpos,
+                views["rotor_thrust"],
+                views["joint_angle"],
+                self._activation,
+                self._time_up,
+                self._time_down,
+                self._max_turn,
                 self._ctrl,
+                self._dynprm,
             )
+        ]
+        if self._where.drives.size:
+            angles = (self.data.qpos, self._ctrl)
+            drives = (views["drive_speed"], *self._drive_limits, *angles)
+            self._writes.append(bound(move_drives, self._where, *drives))
 
     def disturb(self, t_s: float) -> None:
         """Set the disturbances of this moment."""
@@ -200,21 +232,21 @@ class Plant:
     def step(self, steps: int) -> None:
         """Let time pass; plates are placed at the control rate or more often."""
         if not self._plates.any:
-            mujoco.mj_step(self.model, self.data, steps)
+            self._advance(steps)
             return
         done = 0
         while done < steps:
             if done:
-                mujoco.mj_kinematics(self.model, self.data)  # as ``observe`` left them at first
+                self._refresh()  # as ``observe`` left them at first
             self._plates.follow()
             stretch = min(self._steps_per_placing, steps - done)
-            mujoco.mj_step(self.model, self.data, stretch)
+            self._advance(stretch)
             done += stretch
 
     @property
     def diverged(self) -> str:
         """Why the physics cannot be trusted any more; empty while it can."""
-        if not self._warnings.any():
+        if not any(self._warnings.tolist()):
             return ""
         numbers = np.flatnonzero(self._warnings)
         return ", ".join(mujoco.mjtWarning(int(number)).name for number in numbers)

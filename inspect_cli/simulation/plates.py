@@ -24,7 +24,7 @@ from collections.abc import Sequence
 import mujoco
 import numpy as np
 
-from inspect_cli.compiled import kernel
+from inspect_cli.compiled import bound, kernel
 from inspect_cli.simulation.surface_geoms import WALL_THICKNESS_M, plate_name
 from inspect_cli.spatial.arrays import Indices, Mask, Points
 from inspect_cli.truth.solids import Solids, foot_on, normal_on, point_on
@@ -91,15 +91,22 @@ class Plates:
         count = len(solids.primitives) + len(solids.reliefs)
         touching = [geom for contact in contacts for geom in contact.geoms]
         plated = [(i, g) for i in range(count) for g in touching if plate_name(i, g) in named]
-        self._solids = solids
-        self._surfaces = np.array([i for i, _ in plated], dtype=np.int32)
-        self._slots = np.array([named[plate_name(i, g)] for i, g in plated], dtype=np.int32)
-        self._geoms = np.array([model.geom(g).id for _, g in plated], dtype=np.int32)
-        self._geom_xpos = data.geom_xpos
-        self._pos, self._quat = data.mocap_pos, data.mocap_quat
         self._engaged = np.zeros(len(plated), np.bool_)
         self.any = bool(plated)
         """Whether there is anything to place."""
+        if self.any:
+            self._place = bound(
+                place_plates,
+                solids,
+                np.array([i for i, _ in plated], dtype=np.int32),
+                np.array([named[plate_name(i, g)] for i, g in plated], dtype=np.int32),
+                np.array([model.geom(g).id for _, g in plated], dtype=np.int32),
+                data.geom_xpos,
+                WALL_THICKNESS_M,
+                self._engaged,
+                data.mocap_pos,
+                data.mocap_quat,
+            )
 
     def reset(self) -> None:
         """Park all plates until a tip is in front of them again."""
@@ -107,14 +114,5 @@ class Plates:
 
     def follow(self) -> None:
         """Place every plate below its geom, whose kinematics are up to date."""
-        place_plates(
-            self._solids,
-            self._surfaces,
-            self._slots,
-            self._geoms,
-            self._geom_xpos,
-            WALL_THICKNESS_M,
-            self._engaged,
-            self._pos,
-            self._quat,
-        )
+        if self.any:
+            self._place()

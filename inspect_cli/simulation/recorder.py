@@ -42,6 +42,7 @@ class Recorder:
             self._computed += (disturbance,)
         continuous = (state, *contacts, *self._computed, *inertial)
         self._taps = [log.tap(record) for record in continuous]
+        self._times = [record.views["t_s"] for record in self._computed]
         self._poses = {
             "/pose/estimate": (stack.estimate.p_WB, stack.estimate.q_WB),
             "/pose/reference": (stack.reference.p_WB, stack.reference.q_WB),
@@ -55,8 +56,8 @@ class Recorder:
     def rows(self, t_s: float) -> None:
         """Log one row of every continuous channel, all with the same time."""
         begun = perf_counter()
-        for record in self._computed:
-            record.t_s = t_s
+        for time in self._times:
+            time[0] = t_s
         for row, queue in self._taps:
             queue(row())
         if t_s >= self._next_pose_s:

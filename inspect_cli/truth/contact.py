@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from inspect_cli.compiled import kernel
+from inspect_cli.compiled import bound, kernel
 from inspect_cli.records import State, TrueContact
 from inspect_cli.spatial.arrays import Structured, Vector
 from inspect_cli.spatial.primitives import normal_at, patch_distance, project
@@ -64,15 +64,23 @@ class ContactTruth:
     def __init__(self, structure: StructureTruth) -> None:
         self._structure = structure
         self.contact = TrueContact.create()
+        self._state: State | None = None
+        self._p_WT = b""
+        """The tip's position for which ``contact`` holds, as bytes."""
 
     def update(self, state: State) -> TrueContact:
         """The truth at the tip now."""
         contact = self.contact
-        solids, p_WT = self._structure.solids, state.views["p_WT"]
-        index = nearest_surface(solids.primitives, p_WT, contact.array)
-        if len(solids.reliefs):
-            index = nearer_relief(solids, p_WT, contact.array, index)
+        if state is not self._state:
+            self._bind(state)
         contact.t_s = state.t_s
+        p_WT = state.views["p_WT"].tobytes()
+        if p_WT == self._p_WT:
+            return contact
+        self._p_WT = p_WT
+        index = self._nearest()
+        if self._nearer is not None:
+            index = self._nearer(index)
         specimen = self._structure.surfaces[index].specimen if index >= 0 else None
         if specimen is None:
             contact.potential = contact.resistivity = float("nan")
@@ -80,3 +88,11 @@ class ContactTruth:
             uv = contact.views["uv"]
             contact.potential, contact.resistivity = specimen.at(float(uv[0]), float(uv[1]))
         return contact
+
+    def _bind(self, state: State) -> None:
+        self._state = state
+        solids, p_WT, contact = self._structure.solids, state.p_WT, self.contact.array
+        self._nearest = bound(nearest_surface, solids.primitives, p_WT, contact)
+        self._nearer = None
+        if len(solids.reliefs):
+            self._nearer = bound(nearer_relief, solids, p_WT, contact, then=(0,))

@@ -19,7 +19,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from inspect_cli.compiled import kernel
+from inspect_cli.compiled import bound, kernel
 from inspect_cli.schema.truth import ProximityEffects
 from inspect_cli.spatial.arrays import Indices, Matrix, Points, Structured, Vector
 from inspect_cli.spatial.primitives import patch_distance, raycast
@@ -134,7 +134,7 @@ class Proximity:
         self._solids = on_the_ground(solids)
         self._effects = effects
         self._radii_m = radii_m
-        self._near = np.tile([np.nan, np.nan, np.inf], (len(radii_m), 1))
+        self._gains: Matrix | None = None
 
     @property
     def any(self) -> bool:
@@ -150,15 +150,34 @@ class Proximity:
         gains: Matrix,
     ) -> None:
         """Set each rotor's gain to its factor; see ``set_thrust_factors``."""
+        if gains is not self._gains or hubs is not self._hubs or site_xpos is not self._xpos:
+            self._bind(site_xpos, site_xmat, hubs, rotors, gains)
+        if self._look_for_reliefs is not None:
+            self._look_for_reliefs()
+        self._set()
+
+    def _bind(
+        self,
+        site_xpos: Points,
+        site_xmat: Points,
+        hubs: Indices,
+        rotors: Indices,
+        gains: Matrix,
+    ) -> None:
         effects, solids = self._effects, self._solids
+        self._gains, self._hubs, self._xpos = gains, hubs, site_xpos
+        near = np.tile([np.nan, np.nan, np.inf], (len(hubs), 1))
+        places = (site_xpos, site_xmat, hubs)
+        self._look_for_reliefs = None
         if len(solids.reliefs):
-            near_reliefs(solids.reliefs, solids.nodes, site_xpos, site_xmat, hubs, self._near)
-        set_thrust_factors(
+            self._look_for_reliefs = bound(
+                near_reliefs, solids.reliefs, solids.nodes, *places, near
+            )
+        self._set = bound(
+            set_thrust_factors,
             solids.primitives,
-            self._near,
-            site_xpos,
-            site_xmat,
-            hubs,
+            near,
+            *places,
             rotors,
             self._radii_m,
             effects.ground,

@@ -45,7 +45,7 @@ def feet_on(solids: Solids, i: int, believed: Structured, uv_m: Points, feet: Po
 
 
 @dataclass(frozen=True)
-class Beneath:
+class UnderSurface:
     """The specimen beneath one believed surface."""
 
     surface: str
@@ -95,7 +95,9 @@ class Beneath:
         )
 
 
-def all_beneath(structure: StructureTruth, believed: Sequence[PlannedSurface]) -> Iterator[Beneath]:
+def all_under_surfaces(
+    structure: StructureTruth, believed: Sequence[PlannedSurface]
+) -> Iterator[UnderSurface]:
     """The believed surfaces beneath which there is a specimen, in the belief's order."""
     true = {surface.name: k for k, surface in enumerate(structure.surfaces)}
     for surface in believed:
@@ -103,14 +105,14 @@ def all_beneath(structure: StructureTruth, believed: Sequence[PlannedSurface]) -
         specimen = None if index is None else structure.surfaces[index].specimen
         if index is not None and specimen is not None:
             prim = primitive_of(surface.shape)
-            yield Beneath(surface.name, prim, index, structure.solids, specimen)
+            yield UnderSurface(surface.name, prim, index, structure.solids, specimen)
 
 
 def true_rasters(
     structure: StructureTruth, believed: Sequence[PlannedSurface]
 ) -> tuple[TrueRaster, ...]:
     """A raster for each believed surface with a specimen."""
-    found = list(all_beneath(structure, believed))
+    found = list(all_under_surfaces(structure, believed))
     return tuple(one.raster(1.0 / len(found)) for one in found)
 
 

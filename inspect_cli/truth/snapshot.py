@@ -24,3 +24,6 @@ class Truth:
     wall_wrench: Callable[[], Vector] = lambda: np.zeros(6)
     """Force of the tool on the surface with a force sensor and torque about O_W, (6,) N and N·m
     in W, now."""
+    contact_wrench: Callable[[str], Vector] = lambda name: np.zeros(6)
+    """Force of the surfaces on a contact of the vehicle, by its name, and torque about the origin
+    of its frame, (6,) N and N·m in W, now."""

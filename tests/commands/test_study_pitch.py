@@ -22,7 +22,7 @@ from inspect_cli.schema.plan import Plan
 from inspect_cli.schema.result import Metric, Result
 from inspect_cli.schema.study import StudyResult
 from inspect_cli.simulation.loop import Ending
-from inspect_cli.truth.rasters import Beneath
+from inspect_cli.truth.rasters import UnderSurface
 
 MISSION = """\
 schema: 1
@@ -151,13 +151,13 @@ def test_readings_are_taken_beside_their_points(
     Of errors of two axes exp(−r²/2σ²) are larger than r: 88 % than 1 mm, which then read nothing.
     """
     read: list[np.ndarray] = []
-    at = Beneath.at
+    at = UnderSurface.at
 
-    def recording(beneath: Beneath, uv_m: np.ndarray):
+    def recording(beneath: UnderSurface, uv_m: np.ndarray):
         read.append(uv_m)
         return at(beneath, uv_m)
 
-    monkeypatch.setattr(Beneath, "at", recording)
+    monkeypatch.setattr(UnderSurface, "at", recording)
     rewritten(mission, "pitch_m: 0.3,", "pitch_m: 0.3, off_target_m: 0.001,")
     found = study("pitch", mission, asked={"pitch": "0.1"}).result.variants[0]
     grids = [uv for uv in read if len(uv) < 1000]

@@ -9,7 +9,7 @@ import pytest
 
 from inspect_cli.records import CORE_RECORDS, Record
 
-LENGTHS = {"n_rotors": 8, "n_joints": 5, "n_servos": 4, "n_arm": 2}
+LENGTHS = {"n_rotors": 8, "n_joints": 5, "n_servos": 4, "n_drives": 1, "n_arm": 2}
 FRAMES = {"", "W", "B", "S"}
 FRAME_IN_NAME = re.compile(r"_(?P<frame>[WBS])$")
 """p_WB is expressed in W, v_WB_W in W, w_WB_B and wrench_B in B; see ``inspect_cli.spatial``."""

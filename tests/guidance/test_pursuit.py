@@ -212,7 +212,7 @@ def test_camera_and_pursuit_together_find_a_wall_that_is_not_where_it_was_planne
         state.q_WB[:] = pursuit.reference.q_WB
         state.q_WT[:] = matrix_to_quaternion(R_WT)
         camera.sample(Truth(state))
-        p_WD = state.p_WB + rotate(state.q_WB, np.array(model.position_B_m))
+        p_WD = state.p_WB + rotate(state.q_WB, np.array(model.mount.position_m))
         local.update(camera.points_D, p_WD, p_WT, R_WT, surface)
         pursuit.observe(t, surface)
         t += 0.2

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from fake_vehicle import FakeVehicle, target_at
 
-from inspect_cli.guidance.aim import Aim
+from inspect_cli.guidance.contact_frame import ContactFrame
 from inspect_cli.guidance.orientation import contact_orientation
 from inspect_cli.guidance.pursuit import Pursuit
 from inspect_cli.guidance.stroke import StrokePath, along, corrected
@@ -125,7 +125,7 @@ def test_the_tool_stays_on_the_line_and_square_to_the_surface(prim):
 def test_a_surface_seen_elsewhere_carries_the_stroke_with_it():
     """The column stands 5 cm nearer and is turned by 5°: so is the stroke."""
     n = normal_at(COLUMN, 0, 0.0, 0.0)
-    planned = Aim(point_at(COLUMN, 0, 0.0, 0.0), n, contact_orientation(n, Y_W), True)
+    planned = ContactFrame(point_at(COLUMN, 0, 0.0, 0.0), n, contact_orientation(n, Y_W), True)
     yaw = np.radians(5.0)
     R = np.array([[np.cos(yaw), -np.sin(yaw), 0], [np.sin(yaw), np.cos(yaw), 0], [0, 0, 1.0]])
     shifted = planned.p_WC + 0.05 * n

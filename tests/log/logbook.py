@@ -29,7 +29,7 @@ from inspect_cli.schema.plan import Leg, MarginModel, Plan, PlannedSurface, Post
 from inspect_cli.schema.truth import TruthModel
 from inspect_cli.vehicles.fully_actuated import BEHAVIOUR
 
-LENGTHS = {"n_rotors": 12, "n_joints": 6, "n_servos": 6, "n_arm": 0}
+LENGTHS = {"n_rotors": 12, "n_joints": 6, "n_servos": 6, "n_drives": 0, "n_arm": 0}
 RECORDS: tuple[type[Record], ...] = (
     State,
     TrueContact,

@@ -4,11 +4,10 @@ from __future__ import annotations
 
 import dataclasses
 import json
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 
 import numpy as np
 import pytest
-from conftest import Pitched
 from rasters import disc, grid, judged_truly, point, raster_of
 from synthetic import SyntheticFlight, nine_points
 
@@ -29,7 +28,7 @@ from inspect_cli.schema.mission import Mission
 from inspect_cli.schema.plan import PlannedSurface
 from inspect_cli.schema.result import PointResult
 from inspect_cli.schema.scoring import UNREAD, Scoring
-from inspect_cli.schema.vehicle import HalfCellModel
+from inspect_cli.schema.vehicle import HalfCellModel, TiltRotorPlatform
 from inspect_cli.vehicles.tilt_rotor import TiltRotor
 
 STEP_M = 0.005
@@ -240,7 +239,9 @@ def test_points_of_two_pitches_stand_for_their_own_cells() -> None:
     assert areas[-1] == pytest.approx(0.25 - 0.18**2, abs=0.18 * 2 * 0.5 / 60)
 
 
-def test_a_coarse_grid_with_readings_beside_a_fine_one_without(pitched: Pitched) -> None:
+def test_a_coarse_grid_with_readings_beside_a_fine_one_without(
+    pitched: Callable[[float], TiltRotorPlatform],
+) -> None:
     """Six points at 0.25 m stand for 0.375 m², and what is scored is what is assessed."""
     shape = {"kind": "plane", "center_m": [2, 0, 1.5], "normal": [-1, 0, 0], "size_m": [2, 1]}
     coarse = {"on": "wall", "rows": 2, "columns": 3, "pitch_m": 0.25}

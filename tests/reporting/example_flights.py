@@ -125,7 +125,8 @@ def survey(
         for j in range(columns)
     ]
     phases = _phases(places)
-    channels = _channels(phases, places, {"n_rotors": n_rotors, "n_joints": n_joints})
+    lengths = {"n_rotors": n_rotors, "n_joints": n_joints, "n_servos": n_joints}
+    channels = _channels(phases, places, lengths)
     end_s = float(channels[Reference.topic]["t_s"][-1])
     rng = np.random.default_rng(3)
     cloud = np.column_stack(
@@ -353,6 +354,7 @@ def _plan(
             "n_W": [-1, 0, 0],
             "q_WT": [0.7071067811865476, 0, 0.7071067811865476, 0],
             "sensor": "half_cell",
+            "cell_m": [0.05, 0.05],
             "law": LAW,
             "dwell_s": 3.0,
             "standoff_m": STANDOFF_M,

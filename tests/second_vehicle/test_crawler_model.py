@@ -5,21 +5,19 @@ from __future__ import annotations
 import mujoco
 import numpy as np
 import pytest
-from pitching_crawler import PitchingCrawler
-from pitching_crawler.abilities import Shortfall
-from pitching_crawler.mujoco_model import FOOT
-from pitching_crawler.numbers import N_ROTORS
+from crawler_models import crawler
+from pitching_crawler.file_model import FOOT
 
-from inspect_cli.interfaces import TOOL, Posture
+from inspect_cli.interfaces import FREE, TOOL, FramePose, Posture, Shortfall
 from inspect_cli.spatial.rotations import matrix_to_quaternion, roll_pitch_yaw_matrix
 
-MASS, G = 2.3, 9.81
+MASS, G, N_ROTORS = 2.3, 9.81, 6
 ANYWHERE = Posture(np.zeros(3), np.array([1.0, 0.0, 0.0, 0.0]), np.zeros(1))
 
 
 @pytest.fixture(scope="module")
 def vehicle():
-    return PitchingCrawler()
+    return crawler()
 
 
 @pytest.fixture(scope="module")
@@ -38,7 +36,7 @@ def data_at(model, posture):
 def tool_at(p, heading=0.0, along=(1.0, 0.0, 0.0)):
     z = roll_pitch_yaw_matrix(0.0, 0.0, heading) @ along
     y = np.cross([0.0, 0.0, 1.0], z)
-    return np.array(p, dtype=float), np.column_stack([np.cross(y, z), y, z])
+    return FramePose(np.array(p, dtype=float), np.column_stack([np.cross(y, z), y, z]))
 
 
 def test_frames_are_where_the_model_has_them(vehicle, model):
@@ -59,11 +57,11 @@ def test_a_trimmed_posture_is_in_balance_in_every_joint_of_the_model(
     vehicle, model, push_n, heading
 ):
     """Thrust along z_B, weight, load and the hinge's spring leave no acceleration."""
-    p, R = tool_at([1.0, 2.0, 3.0], heading)
-    load = np.concatenate([-push_n * R[:, 2], np.zeros(3)])
+    goal = tool_at([1.0, 2.0, 3.0], heading)
+    load = np.concatenate([-push_n * goal.R[:, 2], np.zeros(3)])
     able = vehicle.capabilities
-    posture = able.solve({TOOL: (p, R)}, {TOOL: load}, ANYWHERE)
-    np.testing.assert_allclose(able.frame_pose(posture, TOOL)[0], p, atol=1e-12)
+    posture = able.solve({TOOL: goal}, {TOOL: load}, ANYWHERE)
+    np.testing.assert_allclose(able.frame_pose(posture, TOOL)[0], goal.p, atol=1e-12)
     data = data_at(model, posture)
     z_B = data.body("hub").xmat.reshape(3, 3)[:, 2]
     assert np.hypot(z_B[0], z_B[1]) / z_B[2] == pytest.approx(push_n / (MASS * G), abs=1e-9)
@@ -77,8 +75,8 @@ def test_a_trimmed_posture_is_in_balance_in_every_joint_of_the_model(
     force_B = data.body("hub").xmat.reshape(3, 3).T @ wanted[:3]
     np.testing.assert_allclose(force_B[:2], 0.0, atol=1e-9)
     thrusts = np.linalg.pinv(able.allocation) @ [force_B[2], *wanted[3:6]]
-    left = vehicle.numbers.max_thrust_n - thrusts.max()
-    assert able.thrust_margin_n(posture, {TOOL: load}) == pytest.approx(left, abs=1e-9)
+    left = vehicle.platform.rotors.max_thrust_n - thrusts.max()
+    assert able.margins(posture, {TOOL: load})["thrust"].value == pytest.approx(left, abs=1e-9)
 
 
 def test_what_it_cannot_do_comes_with_the_reason(vehicle):
@@ -88,20 +86,22 @@ def test_what_it_cannot_do_comes_with_the_reason(vehicle):
     assert isinstance(refused, Shortfall)
     needed = np.hypot(80.0, MASS * G) - N_ROTORS * 12.0
     assert f"{needed:.2f} N more thrust" in refused.reason
-    sideways = able.solve({FOOT: (np.zeros(3), np.eye(3))}, {FOOT: load / 40.0}, ANYWHERE)
+    sideways = able.solve({FOOT: FramePose(np.zeros(3), np.eye(3))}, {FOOT: load / 40.0}, ANYWHERE)
     assert isinstance(sideways, Shortfall)
     assert "square" in sideways.reason
-    upright = able.solve({TOOL: (np.zeros(3), np.eye(3))}, {}, ANYWHERE)
+    upright = able.solve({TOOL: FramePose(np.zeros(3), np.eye(3))}, {}, ANYWHERE)
     assert isinstance(upright, Shortfall)
 
 
 def test_the_foot_is_held_level_under_a_ceiling(vehicle):
     able, p = vehicle.capabilities, np.array([0.5, 0.0, 3.0])
     load = np.array([0.0, 0.0, -3.0, 0.0, 0.0, 0.0])
-    posture = able.solve({FOOT: (p, np.eye(3))}, {FOOT: load}, ANYWHERE)
+    posture = able.solve({FOOT: FramePose(p, np.eye(3))}, {FOOT: load}, ANYWHERE)
     np.testing.assert_allclose(posture.p_WB, p - [0.0, 0.0, 0.15], atol=1e-12)
-    bare = able.thrust_margin_n(posture, {})
-    assert able.thrust_margin_n(posture, {FOOT: load}) == pytest.approx(bare - 3.0 / N_ROTORS)
+    bare = able.margins(posture, FREE)["thrust"].value
+    assert able.margins(posture, {FOOT: load})["thrust"].value == pytest.approx(
+        bare - 3.0 / N_ROTORS
+    )
 
 
 def test_allocation_is_that_of_the_model(vehicle, model):

@@ -6,7 +6,7 @@ from types import SimpleNamespace
 
 import mujoco
 import numpy as np
-from pitching_crawler import PitchingCrawler
+from crawler_models import crawler
 
 from inspect_cli.records import Command, Estimate, Record, State
 from inspect_cli.scene.materials import FRONT
@@ -15,7 +15,7 @@ from inspect_cli.scene.visual_model import visual_model
 
 
 def test_every_rotor_has_its_ring_and_every_contact_its_colour() -> None:
-    vehicle = PitchingCrawler()
+    vehicle = crawler()
     plain, model = vehicle.nominal_spec().compile(), visual_model(vehicle).compile()
     assert model.nq == plain.nq
     np.testing.assert_allclose(model.body_mass, plain.body_mass)
@@ -40,7 +40,7 @@ def rows_of(kind: type[Record], lengths: dict[str, int], **values: np.ndarray) -
 
 
 def test_joints_are_drawn_by_their_names_whatever_their_order() -> None:
-    vehicle = PitchingCrawler()
+    vehicle = crawler()
     vehicle.joints = ("wheel", "hinge")
     model, lengths = vehicle.nominal_spec().compile(), vehicle.capabilities.lengths
     state = rows_of(State, lengths, joint_angle=np.array([0.7, 0.2]))
@@ -50,7 +50,7 @@ def test_joints_are_drawn_by_their_names_whatever_their_order() -> None:
 
 
 def test_without_the_truth_a_joint_that_nobody_commands_is_drawn_at_zero() -> None:
-    vehicle = PitchingCrawler()
+    vehicle = crawler()
     model, lengths = vehicle.nominal_spec().compile(), vehicle.capabilities.lengths
     estimate = rows_of(Estimate, lengths, p_WB=np.array([1.0, 2.0, 3.0]))
     command = np.zeros(5, Command.dtype(lengths))

@@ -241,9 +241,8 @@ def test_the_filter_gives_up_after_as_long_a_time_as_with_a_tracker() -> None:
 
 
 def test_a_steady_drift_moves_what_it_believes_at_rest_too() -> None:
-    quiet = dict.fromkeys(OdometryModel.model_fields, 0.0)
     sensor = OdometrySensor(
-        OdometryModel(**quiet), np.random.Generator(np.random.SFC64(1)), (0.002, 0.0, -0.001)
+        OdometryModel(**QUIET), np.random.Generator(np.random.SFC64(1)), (0.002, 0.0, -0.001)
     )
     state = State.create()
     state.q_WB[0] = 1.0

@@ -10,7 +10,13 @@ from inspect_cli.schema.plan import PlannedSurface
 from inspect_cli.schema.specimens import AnalyticSpecimen, AnalyticSpot
 from inspect_cli.schema.truth import TrueSurface, TruthModel
 from inspect_cli.truth.geometry import true_structure
-from inspect_cli.truth.rasters import MOST_ALONG, MOST_CELLS, Beneath, all_beneath, true_rasters
+from inspect_cli.truth.rasters import (
+    MOST_ALONG,
+    MOST_CELLS,
+    UnderSurface,
+    all_under_surfaces,
+    true_rasters,
+)
 from inspect_cli.truth.specimens import load_specimen
 
 SPECIMEN = AnalyticSpecimen(
@@ -28,9 +34,9 @@ def believed(shape=WALL, name: str = "wall") -> PlannedSurface:
     return PlannedSurface(name=name, shape=shape, source="given")
 
 
-def beneath(tmp_path, entry: TrueSurface, surface: PlannedSurface) -> Beneath:
+def beneath(tmp_path, entry: TrueSurface, surface: PlannedSurface) -> UnderSurface:
     structure = true_structure(TruthModel(structure={surface.name: entry}), [surface], tmp_path)
-    (found,) = all_beneath(structure, [surface])
+    (found,) = all_under_surfaces(structure, [surface])
     return found
 
 

@@ -46,13 +46,13 @@ def _forces(material: Material) -> list[Block]:
         return [Heading(say("External wrench")), *drawn(wrench, side_by_side=True)]
     caption = say("Contact and readings.") if profile.readings else say("Contact.")
     groups = [group for group in CONTACT_GROUPS if group not in material.hidden_groups]
+    seen = drawn(surface_figures(material.log, timeline))
     return [
         Heading(say("Contact force and external wrench")),
         *drawn(forces[:1]),
         *drawn(forces[1:], side_by_side=True),
         *metrics_table(caption, material.result, groups),
-        Heading(say("Surface seen by the depth camera")),
-        *drawn(surface_figures(material.log, timeline)),
+        *([Heading(say("Surface seen by the depth camera")), *seen] if seen else []),
     ]
 
 

@@ -46,7 +46,7 @@ def _provenance(log: RunLog, result: Result, plan: Plan) -> list[Block]:
         [
             (say("Mission"), result.mission),
             (say("Platform"), f"{result.platform} ({platform.kind})"),
-            (say("Impedance profile"), mission.impedance),
+            (say("Impedance profile"), plan.impedance or NOTHING),
             (say("Estimation"), mission.estimation),
             (say("Seed"), NOTHING if result.seed is None else str(result.seed)),
             (say("Planned duration"), together(number(plan.duration_s, 1), " s")),

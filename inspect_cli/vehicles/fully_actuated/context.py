@@ -128,8 +128,10 @@ class ContactContext(Context):
         behind = target is not None and mode.name in BEHIND_SURFACE
         self.inputs.press_m = target.press_m if target is not None and behind else 0.0
         self.inputs.least_distance_m = NEAREST_SHARE * target.standoff_m if target else 0.0
-        if mode.phase is not Phase.SAFE:  # after an abort, possibly in contact, nothing changes
-            self.guidance.take_impedance(target.impedance if target else self.plan.impedance)
+        impedance = target.impedance if target else self.plan.impedance
+        # After an abort, possibly in contact, nothing changes.
+        if mode.phase is not Phase.SAFE and impedance is not None:
+            self.guidance.take_impedance(impedance)
 
     def hear(self, record: Record) -> None:
         """Take an accepted pose, an estimate of the surface, or a sample of an instrument."""

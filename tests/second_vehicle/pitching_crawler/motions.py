@@ -2,15 +2,18 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
+from itertools import pairwise
 
 import numpy as np
 
+from inspect_cli.interfaces import Posture
 from inspect_cli.spatial.arrays import Vector
+from inspect_cli.spatial.rotations import quaternion_to_matrix
+from pitching_crawler.task_models import RAMP_S
 
-RAMP_S = 1.0
-"""In which a force and the speed of a crawl rise and fall."""
+LEAST_LINE_S = 1.0
 
 
 @dataclass
@@ -29,20 +32,43 @@ class SetPoint:
 Motion = Callable[[float, SetPoint], None]
 
 
+def heading_of(posture: Posture) -> float:
+    """Direction of x_B on the ground plan, rad."""
+    x_W = quaternion_to_matrix(posture.q_WB)[:, 0]
+    return float(np.arctan2(x_W[1], x_W[0]))
+
+
 def stay(t_s: float, point: SetPoint) -> None:
     """Rest where it is."""
     point.v_WB_W = np.zeros(3)
 
 
-def line(start: Vector, end: Vector, duration_s: float) -> Motion:
-    """From rest to rest, a polynomial of fifth degree."""
+def route(
+    start: SetPoint, postures: Sequence[Posture], speed_mps: float, turn_radps: float
+) -> tuple[Motion, float]:
+    """From rest to rest through way-points, polynomials of fifth degree; and how long it takes.
+
+    Such a line peaks at 15/8 of its mean speed.
+    """
+    places = [start.p_WB.copy(), *(posture.p_WB for posture in postures)]
+    headings = [start.heading, *map(heading_of, postures)]
+    turns = [float(np.arctan2(np.sin(b - a), np.cos(b - a))) for a, b in pairwise(headings)]
+    lengths = [float(np.linalg.norm(b - a)) for a, b in pairwise(places)]
+    lasts = [
+        max(1.875 * way_m / speed_mps, 1.875 * abs(turn) / turn_radps, LEAST_LINE_S)
+        for way_m, turn in zip(lengths, turns, strict=True)
+    ]
+    begins = np.concatenate([[0.0], np.cumsum(lasts)])
 
     def move(t_s: float, point: SetPoint) -> None:
-        s = min(t_s / duration_s, 1.0)
-        point.p_WB = start + (end - start) * s**3 * (10.0 - 15.0 * s + 6.0 * s**2)
-        point.v_WB_W = (end - start) * 30.0 * s**2 * (1.0 - s) ** 2 / duration_s
+        k = int(np.clip(np.searchsorted(begins, t_s, side="right") - 1, 0, len(lasts) - 1))
+        s = min((t_s - begins[k]) / lasts[k], 1.0)
+        share, along = s**3 * (10.0 - 15.0 * s + 6.0 * s**2), places[k + 1] - places[k]
+        point.p_WB = places[k] + share * along
+        point.v_WB_W = along * 30.0 * s**2 * (1.0 - s) ** 2 / lasts[k]
+        point.heading = headings[k] + share * turns[k]
 
-    return move
+    return move, float(begins[-1])
 
 
 def creep(start: Vector, velocity: Vector) -> Motion:

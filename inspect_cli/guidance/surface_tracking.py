@@ -20,7 +20,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from inspect_cli.guidance.aim import Aim
+from inspect_cli.guidance.contact_frame import ContactFrame
 from inspect_cli.guidance.motion import MotionLimits
 from inspect_cli.guidance.progress import Progress
 from inspect_cli.schema import plan
@@ -39,7 +39,7 @@ LEAST_STEP_M = 0.01
 
 
 @dataclass
-class Following:
+class SurfaceTracking:
     """The state of one slide."""
 
     progress: Progress
@@ -56,7 +56,7 @@ class Following:
     """The normal of the last difference, and where on the way it was seen."""
 
     @classmethod
-    def begin(cls, t_s: float, model: plan.Following, limits: MotionLimits) -> Following:
+    def begin(cls, t_s: float, model: plan.Following, limits: MotionLimits) -> SurfaceTracking:
         """From rest at ``t_s``."""
         acceleration = ACCELERATION_SHARE * limits.acceleration_mps2
         speed = min(model.speed_mps, limits.speed_mps)
@@ -89,12 +89,12 @@ class Following:
         self.bend_W += BEND_SHARE * ((n_W - before) / (here - there) - self.bend_W)
         self._normal = n_W, here
 
-    def surface_at(self, aim: Aim, way_m: float) -> tuple[Vector, Vector]:
-        """Point (3,) m and normal (3,) of the bent surface ``way_m`` ahead of an aim."""
-        forward = self.direction(aim.R_WT)
+    def surface_at(self, frame: ContactFrame, way_m: float) -> tuple[Vector, Vector]:
+        """Point (3,) m and normal (3,) of the bent surface ``way_m`` ahead of a contact frame."""
+        forward = self.direction(frame.R_WT)
         sag = 0.5 * way_m * way_m * float(forward @ self.bend_W)
-        n_W = aim.n_W + way_m * self.bend_W
-        return aim.p_WC + way_m * forward - sag * aim.n_W, n_W / np.linalg.norm(n_W)
+        n_W = frame.n_W + way_m * self.bend_W
+        return frame.p_WC + way_m * forward - sag * frame.n_W, n_W / np.linalg.norm(n_W)
 
     def direction(self, R_WT: Matrix) -> Vector:
         """The unit vector (3,) in W along which the tool slides."""

@@ -11,7 +11,7 @@ from inspect_cli.schema.plan import PlannedSurface
 from inspect_cli.truth.geometry import StructureTruth, specimen_path, true_structure
 
 
-def structure_beneath(loaded: Loaded, believed: Sequence[PlannedSurface]) -> StructureTruth:
+def truth_under_surfaces(loaded: Loaded, believed: Sequence[PlannedSurface]) -> StructureTruth:
     """What is really there of a mission whose planner believes in ``believed``.
 
     Raises:

@@ -61,7 +61,7 @@ class RawLog:
     """By channel: Message records (n, length), each array of records of equal length."""
 
 
-def walk(path: Path) -> RawLog:
+def raw_log(path: Path) -> RawLog:
     """Take a file apart.
 
     Raises LogError where it cannot be read, is no MCAP file, or its bytes are damaged.

@@ -1,4 +1,4 @@
-"""Where the tool is aimed: the surface at a target as it is believed, and the tool's turn to it."""
+"""The contact frame: the surface at a target as it is believed, and the tool's attitude to it."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ ARRIVAL_RAD = float(np.radians(2.0))
 
 
 @dataclass(frozen=True)
-class Aim:
+class ContactFrame:
     """A contact point (3,) m with its outward normal (3,) in W, and R_WT (3, 3) with z_T = −n.
 
     ``level`` says whether y_T is kept level. Near the vertical a small error of n̂ would turn a
@@ -38,19 +38,19 @@ class Aim:
     found: bool = True
 
     @classmethod
-    def planned(cls, target: Target) -> Aim:
+    def planned(cls, target: Target) -> ContactFrame:
         """What the plan believes."""
         R_WT = quaternion_to_matrix(np.array(target.q_WT))
         n_W = np.array(target.n_W)
         return cls(np.array(target.p_WC), n_W, R_WT, _is_level(n_W), target.following is None)
 
     @classmethod
-    def of_set_point(cls, p_WT: Vector, R_WT: Matrix, depth_m: float, level: bool) -> Aim:
-        """The aim of a tool whose set-point lies ``depth_m`` behind the surface."""
+    def of_set_point(cls, p_WT: Vector, R_WT: Matrix, depth_m: float, level: bool) -> ContactFrame:
+        """The contact frame of a tool whose set-point lies ``depth_m`` behind the surface."""
         n_W = -R_WT[:, 2]
         return cls(p_WT + depth_m * n_W, n_W, R_WT, level)
 
-    def seen(self, estimate: SurfaceEstimate) -> Aim | None:
+    def seen(self, estimate: SurfaceEstimate) -> ContactFrame | None:
         """The contact point moved along n̂ onto the seen plane; None if that is implausible.
 
         A surface that was not found yet is found where the tool's axis meets it.
@@ -64,25 +64,25 @@ class Aim:
             return None
         return self.at(self.p_WC + shift * n_W, n_W)
 
-    def at(self, p_WC: Vector, n_W: Vector) -> Aim:
-        """The aim at another point and normal, with the tool turned by the same rule."""
-        return Aim(p_WC, n_W, _orientation(n_W, self.R_WT[:, 1], self.level), self.level)
+    def at(self, p_WC: Vector, n_W: Vector) -> ContactFrame:
+        """The frame at another point and normal, with the tool turned by the same rule."""
+        return ContactFrame(p_WC, n_W, _orientation(n_W, self.R_WT[:, 1], self.level), self.level)
 
     def set_point(self, depth_m: float) -> Vector:
         """p_WT (3,) with the tip ``depth_m`` behind the surface."""
         point: Vector = self.p_WC - depth_m * self.n_W
         return point
 
-    def differs(self, other: Aim, depth_m: float) -> bool:
+    def differs(self, other: ContactFrame, depth_m: float) -> bool:
         """Whether going from the other's set-point to this one's is worth waiting for."""
         way = np.linalg.norm(self.set_point(depth_m) - other.set_point(depth_m))
         return bool(way > ARRIVAL_M or self.n_W @ other.n_W < np.cos(ARRIVAL_RAD))
 
-    def _first(self, n_W: Vector, p_WC: Vector) -> Aim | None:
+    def _first(self, n_W: Vector, p_WC: Vector) -> ContactFrame | None:
         if not n_W @ self.n_W >= np.cos(MAX_FIRST_TILT_RAD):
             return None
         level = _is_level(n_W)
-        return Aim(p_WC, n_W, _orientation(n_W, self.R_WT[:, 1], level), level)
+        return ContactFrame(p_WC, n_W, _orientation(n_W, self.R_WT[:, 1], level), level)
 
 
 def _is_level(n_W: Vector) -> bool:
