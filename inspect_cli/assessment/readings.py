@@ -86,8 +86,10 @@ class Merged:
 
     readings: Readings
     """In the order in which each place was first read, with its first label."""
+    given: NDArray[np.str_]
+    """(n,) labels of the readings that were given."""
     member: NDArray[np.intp]
-    """(n,) the place of each reading that was given."""
+    """(n,) the place of each of them."""
     counts: NDArray[np.intp]
     """(m,) valid readings per place."""
     within_sd_v: Vector
@@ -132,6 +134,7 @@ def merged(readings: Readings) -> Merged:
     freedom = int(np.sum(np.maximum(counts - 1, 0)))
     return Merged(
         readings=points,
+        given=readings.labels,
         member=member,
         counts=counts,
         within_sd_v=np.sqrt(_ratio(squares, np.where(counts > 1, counts - 1, 0))),

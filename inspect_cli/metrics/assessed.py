@@ -53,12 +53,16 @@ def assess_points(
 def with_uncertainty(
     points: Sequence[PointResult], assessed: Iterable[Assessed]
 ) -> tuple[PointResult, ...]:
-    """The points that ``assess_points`` was given, with how sure each valid reading is."""
+    """The points, with the standard uncertainty of each valid potential that was assessed.
+
+    A flight's points have labels of their own.
+    """
     found: dict[int, float] = {}
     for one in assessed:
         each_mv = 1e3 * one.budget.alone_v[one.merged.member]
-        own = _on(one.summary.surface, points)
-        found |= {p.index: float(mv) for p, mv in zip(own, each_mv, strict=True) if p.valid}
+        by_label = dict(zip(one.merged.given.tolist(), each_mv.tolist(), strict=True))
+        own = (p for p in _on(one.summary.surface, points) if p.valid and p.label in by_label)
+        found |= {p.index: by_label[p.label] for p in own}
     return tuple(p.model_copy(update={"potential_sd_mv": found.get(p.index)}) for p in points)
 
 
