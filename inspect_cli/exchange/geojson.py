@@ -15,7 +15,7 @@ import numpy as np
 
 from inspect_cli.exchange.earth import on_earth
 from inspect_cli.exchange.readings import HandedReadings
-from inspect_cli.exchange.readings_csv import FIELDS
+from inspect_cli.exchange.readings_csv import FIELDS, value_columns
 from inspect_cli.schema.result import PointResult
 from inspect_cli.schema.survey import Georeference
 
@@ -100,6 +100,7 @@ def _columns(readings: HandedReadings) -> dict[str, Sequence[object]]:
         "v_m": [point.uv_m and point.uv_m[1] for point in points],
     }
     columns |= {name: list(map(attrgetter(name), points)) for name in FIELDS}
+    columns |= value_columns(points)
     return {
         name: values
         for name, values in columns.items()

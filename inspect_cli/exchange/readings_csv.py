@@ -13,12 +13,13 @@ PLACE = ("index", "label", "surface", "u_m", "v_m", "x_m", "y_m", "z_m")
 FIELDS = tuple(
     name
     for name in PointResult.model_fields
-    if name not in ("index", "label", "surface", "p_W", "uv_m")
+    if name not in ("index", "label", "surface", "p_W", "uv_m", "values")
 )
 NUMBERS = ("_mv", "_n", "_s", "_m", "_ohm")
 """How the names of fields end that hold nothing but numbers."""
 COLUMNS = (*PLACE, *FIELDS)
-"""Place first, then the fields of a PointResult under their own names, which hold the unit."""
+"""Place first, then the fields of a PointResult under their own names, which hold the unit. What
+another instrument than a half-cell read follows in columns of its own names."""
 
 
 def readings_csv(points: Sequence[PointResult]) -> str:
@@ -30,9 +31,16 @@ def readings_csv(points: Sequence[PointResult]) -> str:
     """
     text = io.StringIO()
     writer = csv.writer(text, lineterminator="\n")
-    writer.writerow(COLUMNS)
-    writer.writerows(zip(*_columns(points), strict=True))
+    values = value_columns(points)
+    writer.writerow((*COLUMNS, *map(_cell, values)))
+    writer.writerows(zip(*_columns(points), *values.values(), strict=True))
     return text.getvalue()
+
+
+def value_columns(points: Sequence[PointResult]) -> dict[str, list[float | None]]:
+    """The values of other instruments by name, one for each point; None where it has none."""
+    names = dict.fromkeys(name for point in points for name in point.values)
+    return {name: [point.values.get(name) for point in points] for name in names}
 
 
 def _columns(points: Sequence[PointResult]) -> Iterator[Iterable[object]]:

@@ -59,3 +59,11 @@ def test_few_readings_and_none() -> None:
     assert json.loads(geojson(HandedReadings((), "nothing"), HERE))["features"] == []
     parsed = json.loads(geojson(handed(point(7))))
     assert [f["id"] for f in parsed["features"]] == [7]
+
+
+def test_what_another_instrument_read_is_a_property_of_its_own_name() -> None:
+    warm = point(0, values={"temperature_c": 12.5})
+    (plain,) = json.loads(geojson(handed(point(0))))["features"]
+    (feature,) = json.loads(geojson(handed(warm)))["features"]
+    assert "values" not in plain["properties"]
+    assert feature["properties"] == plain["properties"] | {"temperature_c": 12.5}

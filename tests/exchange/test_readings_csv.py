@@ -40,6 +40,14 @@ def test_it_parses_back_to_the_points() -> None:
     assert rows[3]["potential_mv"] == ""
 
 
+def test_what_another_instrument_read_has_columns_of_its_own() -> None:
+    plain = readings_csv([point(0)]).splitlines()[0]
+    assert "values" not in plain
+    rows = rows_of(readings_csv([point(0), point(1, values={"temperature_c": 12.5})]))
+    assert ",".join(rows[0]) == f"{plain},temperature_c"
+    assert [row["temperature_c"] for row in rows] == ["", "12.5"]
+
+
 @pytest.mark.parametrize("start", ["=1+1", "+1", "-1", "@SUM(A1)", "\t=1", "\r=1", "'=1"])
 def test_no_text_runs_as_a_formula(start: str) -> None:
     points = [point(0, label=start, surface=start, valid=False, reason=start, potential_mv=-5.5)]
