@@ -27,6 +27,7 @@ from inspect_cli.files import write_whole
 from inspect_cli.log.reader import read_log
 from inspect_cli.metrics.evaluate import measure
 from inspect_cli.metrics.flight import Flight
+from inspect_cli.plugins import registered
 from inspect_cli.regression.executors import OpenExecutor, local_executors
 from inspect_cli.regression.flights import FlightEnd, FlightTask, Fly, fly_all
 from inspect_cli.regression.run import Progress, counted
@@ -41,11 +42,9 @@ from inspect_cli.schema.result import Metric
 from inspect_cli.schema.study import StudyColumn, StudyResult, StudyVariant
 from inspect_cli.schema.survey import LanguageCode
 
-STUDIES: dict[str, Study] = {
-    "force": FORCE,
-    "pitch": PITCH,
-}
-"""Every study by its name: one row each. The command line takes its options from here."""
+STUDIES: dict[str, Study] = registered("inspect_cli.studies", {"force": FORCE, "pitch": PITCH})
+"""Every study by its name: one row each, and those of installed packages. The command line takes
+its options from here."""
 
 
 @dataclass(frozen=True)

@@ -1,4 +1,4 @@
-"""Each kind of sensor, disturbance and specimen has a row on both of its floors, under its name."""
+"""Each kind has a row on each of its floors, under its name."""
 
 from __future__ import annotations
 
@@ -8,9 +8,11 @@ from typing import get_args
 import pytest
 from pydantic import BaseModel
 
+from inspect_cli.metrics.instruments import INSTRUMENTS as EVALUATED
 from inspect_cli.schema.disturbances import DISTURBANCES
 from inspect_cli.schema.specimens import SPECIMENS
-from inspect_cli.schema.vehicle.sensors import SENSORS
+from inspect_cli.schema.vehicle.sensors import INSTRUMENTS, SENSORS
+from inspect_cli.sensing.judges import JUDGES
 from inspect_cli.sensing.sensors import SENSORS as SIMULATED
 from inspect_cli.truth.disturbances import LOADS
 from inspect_cli.truth.specimens import FIELDS
@@ -30,3 +32,9 @@ def test_a_kind_has_a_model_of_its_name_and_is_simulated(
     assert list(models) == list(simulated)
     for name, model in models.items():
         assert get_args(model.model_fields[key].annotation) == (name,)
+
+
+def test_an_instrument_is_judged_and_evaluated() -> None:
+    assert list(INSTRUMENTS) == list(JUDGES) == list(EVALUATED)
+    for name, row in EVALUATED.items():
+        assert row.reader.kind == name
