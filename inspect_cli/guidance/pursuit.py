@@ -18,11 +18,11 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
 
 import numpy as np
 
 from inspect_cli.compiled import bound
+from inspect_cli.guidance.approach import Approach
 from inspect_cli.guidance.contact_frame import ContactFrame
 from inspect_cli.guidance.motion import Motion, MotionLimits
 from inspect_cli.guidance.quintic import evaluate_motion
@@ -57,24 +57,6 @@ FACING_MPS = 0.5
 NO_SURFACES: Mapping[str, Structured] = {}
 
 
-@dataclass
-class _Approach:
-    """What is being approached."""
-
-    target: Target
-    depth_m: float
-    limits: MotionLimits
-    frame: ContactFrame
-    announced: ContactFrame
-    """The frame for which the time of arrival was last set."""
-    facing_m: float | None = None
-    """The distance that the tool keeps until it stands square to a surface just found."""
-    faced_s: float = 0.0
-    """When it does, as it was planned at the first sight."""
-    sliding: bool = False
-    tracking: SurfaceTracking | None = None
-
-
 class Pursuit:
     """Owns the reference and moves it smoothly: never a jump in p, v, a, q, ω or α.
 
@@ -97,7 +79,7 @@ class Pursuit:
         """Whether the surface that is seen corrects the reference; see ``track``."""
         self._surfaces = surfaces
         self._trajectory = Trajectory.resting(0.0, posture)
-        self._approach: _Approach | None = None
+        self._approach: Approach | None = None
         self._arrival_s = 0.0
         self._arm_angle = self.reference.arm_angle
         self._has_arm = bool(self._arm_angle.size)
@@ -140,7 +122,7 @@ class Pursuit:
         goal = self._posture_for(target, frame, depth_m)
         if goal is None:
             raise ValueError(f"no posture puts the tool {depth_m} m behind {target.label}")
-        self._approach = _Approach(target, depth_m, limits, frame, frame)
+        self._approach = Approach(target, depth_m, limits, frame, frame)
         self._follow(Trajectory(to_goal(t_s, start, goal, limits)))
 
     def slide(self, t_s: float, target: Target) -> None:
@@ -192,7 +174,7 @@ class Pursuit:
             approach.facing_m = None
         self._correct(t_s, approach, seen, anew=faced)
 
-    def _correct(self, t_s: float, approach: _Approach, seen: ContactFrame, anew: bool) -> None:
+    def _correct(self, t_s: float, approach: Approach, seen: ContactFrame, anew: bool) -> None:
         """Plan anew from the reference of this instant to the set-point of a contact frame."""
         facing = approach.facing_m
         depth_m = approach.depth_m if facing is None else -facing
@@ -268,7 +250,7 @@ class Pursuit:
         p_WT, R_WT = self._tool(now)
         return ContactFrame.of_set_point(p_WT, R_WT, approach.depth_m, approach.frame.level)
 
-    def _expected(self, approach: _Approach) -> ContactFrame:
+    def _expected(self, approach: Approach) -> ContactFrame:
         """What an estimate is held against: the plan where there is one, else what was found.
 
         Against the plan, so that a chain of plausible steps cannot walk off it.
@@ -277,7 +259,7 @@ class Pursuit:
             approach.frame if approach.target.following else ContactFrame.planned(approach.target)
         )
 
-    def _along_stroke(self, t_s: float, approach: _Approach, limits: MotionLimits) -> list[Stretch]:
+    def _along_stroke(self, t_s: float, approach: Approach, limits: MotionLimits) -> list[Stretch]:
         """The set-points of the target's stroke, on the surface as it was last corrected."""
         target, stroke = approach.target, approach.target.stroke
         if stroke is None or target.surface is None:
@@ -299,7 +281,7 @@ class Pursuit:
         return stretches
 
     def _advance(
-        self, t_s: float, approach: _Approach, tracking: SurfaceTracking, surface: SurfaceEstimate
+        self, t_s: float, approach: Approach, tracking: SurfaceTracking, surface: SurfaceEstimate
     ) -> None:
         """Aim ahead along the plane that is seen where the reference is now."""
         now = self._trajectory.motion(t_s)

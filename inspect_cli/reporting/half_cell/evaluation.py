@@ -24,13 +24,13 @@ from inspect_cli.reporting.half_cell.places import points_on, shared_range
 from inspect_cli.reporting.half_cell.point_table import points_table
 from inspect_cli.reporting.half_cell.points import ReadPoint
 from inspect_cli.reporting.half_cell.potential_map import map_figure
-from inspect_cli.reporting.half_cell.resistivity import resistivity_figure
-from inspect_cli.reporting.half_cell.scoring import scoring_blocks
-from inspect_cli.reporting.half_cell.statistics import (
+from inspect_cli.reporting.half_cell.potential_statistics import (
     conditions_table,
     mixture_blocks,
     statistics_blocks,
 )
+from inspect_cli.reporting.half_cell.resistivity import resistivity_figure
+from inspect_cli.reporting.half_cell.scoring import scoring_blocks
 from inspect_cli.reporting.half_cell.surface_findings import SurfaceFindings
 from inspect_cli.reporting.words.text import Text, say
 from inspect_cli.schema.scoring import Scoring
