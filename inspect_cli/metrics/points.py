@@ -49,7 +49,7 @@ def sensor_of(reader: PointReader, flight: Flight) -> InstrumentModel:
     """
     model = flight.platform.instruments.get(reader.kind)
     if model is None:
-        raise NotMeasured(f"the platform has no {reader.kind.replace('_', '-')}")
+        raise NotMeasured(f"the platform has no instrument '{reader.kind}'")
     return model
 
 

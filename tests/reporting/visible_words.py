@@ -69,7 +69,7 @@ def _braced(words: str) -> str:
 def foreign(flight: Flight) -> set[str]:
     """What a flight's report holds that is not the project's to translate."""
     mission, platform, plan, log = flight.mission, flight.platform, flight.plan, flight.log()
-    found = {mission.name, mission.title, mission.description, mission.impedance}
+    found = {mission.name, mission.title, mission.description, str(plan.impedance)}
     found |= {mission.estimation, platform.name, platform.title, platform.kind, platform.source}
     found |= {*platform.chosen, *platform.chosen.values(), *plan.warnings, SOURCE}
     found |= {str(check.known_failure) for check in mission.acceptance if check.known_failure}

@@ -64,7 +64,7 @@ def probe_of(flight: Flight) -> HalfCellModel:
     """
     probe = flight.platform.find(HalfCellModel)
     if probe is None:
-        raise NotMeasured("the platform has no half-cell")
+        raise NotMeasured(f"the platform has no instrument '{READER.kind}'")
     return probe
 
 

@@ -110,7 +110,7 @@ RECORDED: tuple[Said, ...] = (
     say("every valid potential is in the passive class: none stands out"),
     say("the log does not hold what is truly so beneath a surface"),
     say("the log does not hold what is truly so beneath a surface where points were planned"),
-    say("the platform has no half-cell"),
+    say("the platform has no instrument '{name}'"),
     say("the platform has no tracker, whose frame this is held against"),
     say("a single point on '{name}' does not say what area it stands for"),
     *PITCH_FINDINGS,
