@@ -208,7 +208,7 @@ class Flight:
         surface = self.stack.hear(image)
         if isinstance(surface, SurfaceEstimate):
             self.executive.hear(surface)
-            self.recorder.surface(surface, image, *self.stack.believed(camera))
+            self.recorder.surface(surface, image, partial(self.stack.believed, camera))
 
     def _decide(self, t_s: float) -> None:
         """The mission rate: surroundings, divergence, executive."""

@@ -78,10 +78,6 @@ class Plant:
         )
         self.contacts = {c.name: wrench_record(c.name).create() for c in vehicle.contacts}
         """Wrenches by the name of the contact; ``observe_contacts`` brings them up to date."""
-        self._contacts = [
-            (contact_addresses(model, contact), self.data.site_xpos[model.site(contact.frame).id])
-            for contact in vehicle.contacts
-        ]
         self._plates = Plates(model, self.data, solids, vehicle.contacts)
         self._steps_per_placing = max(round(1.0 / (control_hz * model.opt.timestep)), 1)
         self.disturbances = disturbances
@@ -117,6 +113,17 @@ class Plant:
             self._activation,
             self.state.array,
         )
+        self._read_wrenches = {
+            contact.name: bound(
+                read_wrench,
+                contact_addresses(model, contact),
+                self._sensors,
+                data.site_xpos[model.site(contact.frame).id],
+                self.contacts[contact.name].array,
+            )
+            for contact in vehicle.contacts
+        }
+        self._contact_times = [record.views["t_s"] for record in self.contacts.values()]
         self._taken: Command | None = None
 
     def place(self, posture: Posture) -> None:
@@ -159,15 +166,14 @@ class Plant:
             known = ", ".join(self.contacts)
             raise InputError(f"the vehicle has no contact '{name}'", hint=f"it has: {known}")
         record = self.contacts[name]
-        places, origin_W = self._contacts[list(self.contacts).index(name)]
-        read_wrench(places, self._sensors, origin_W, record.array)
+        self._read_wrenches[name]()
         return np.concatenate([record.f_W, record.t_W])
 
     def observe_contacts(self, t_s: float) -> None:
         """Read the wrench on each contact; ``observe`` has refreshed the kinematics."""
-        for record, (places, origin_W) in zip(self.contacts.values(), self._contacts, strict=True):
-            read_wrench(places, self._sensors, origin_W, record.array)
-            record.t_s = t_s
+        for read, time in zip(self._read_wrenches.values(), self._contact_times, strict=True):
+            read()
+            time[0] = t_s
 
     def apply(self, command: Command) -> None:
         """Take a command."""

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from time import perf_counter
 
 from inspect_cli.autonomy.context import Context
@@ -74,13 +74,20 @@ class Recorder:
         self.wall_s += perf_counter() - begun
 
     def surface(
-        self, surface: SurfaceEstimate, image: DepthImage, p_WD: Vector, R_WD: Matrix
+        self,
+        surface: SurfaceEstimate,
+        image: DepthImage,
+        camera: Callable[[], tuple[Vector, Matrix]],
     ) -> None:
-        """Log a surface estimate, and once a second the depth points behind it."""
+        """Log a surface estimate, and once a second the depth points behind it.
+
+        ``camera`` returns (p_WD, R_WD), where the camera is believed to be.
+        """
         begun = perf_counter()
         self._log.log(surface)
         if surface.t_s >= self._next_cloud_s:
             self._next_cloud_s += CLOUD_S
+            p_WD, R_WD = camera()
             self._log.point_cloud("/tof/points", surface.t_s, p_WD + image.points_D @ R_WD.T)
         self.wall_s += perf_counter() - begun
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -9,7 +10,7 @@ import numpy as np
 from inspect_cli.autonomy.context import Context, Judges
 from inspect_cli.autonomy.modes import Mode, Order
 from inspect_cli.autonomy.protocols import Guidance, GuidedStack
-from inspect_cli.compiled import kernel
+from inspect_cli.compiled import bound, kernel
 from inspect_cli.records import Estimate, Pose, Record, Reference, SurfaceEstimate
 from inspect_cli.schema.flight_times import PAUSE_S
 from inspect_cli.schema.modes import Phase
@@ -59,6 +60,12 @@ class FlightInputs:
     closing_mps: float = 0.0
     """Estimated speed towards the surface that was seen last."""
 
+    _errors: Callable[[], tuple[float, float, float]] = field(init=False, repr=False)
+
+    def __post_init__(self) -> None:
+        """Look up once how the records of estimate and reference are compared."""
+        self._errors = bound(tracking_errors, self.estimate.array, self.reference.array)
+
     @property
     def stopping_m(self) -> float:
         """The way to a stop: a reaction time, then braking."""
@@ -67,8 +74,7 @@ class FlightInputs:
     def refresh(self, t_s: float) -> None:
         """Bring time and errors up to date."""
         self.t_s = t_s
-        errors = tracking_errors(self.estimate.array, self.reference.array)
-        self.position_error_m, self.attitude_error_rad, self.force_n = errors
+        self.position_error_m, self.attitude_error_rad, self.force_n = self._errors()
         self.closing_mps = max(0.0, -float(self.surface_n_W @ self.estimate.v_WB_W))
         if t_s - self.surface_seen_s > STALE_S:
             self.surface_distance_m = np.inf
