@@ -16,6 +16,7 @@ from inspect_cli.records import (
     Command,
     DepthImage,
     Estimate,
+    Imu,
     Lengths,
     PointReading,
     Pose,
@@ -269,8 +270,12 @@ class FlightStack(Protocol):
         """Begin at rest at a measured pose."""
         ...
 
+    def propagation(self, imu: Imu) -> Callable[[], object]:
+        """What an inertial unit is heard by: to be called whenever it has overwritten ``imu``."""
+        ...
+
     def hear(self, sample: Record | DepthImage) -> Record | None:
-        """Take a sensor's sample.
+        """Take the sample of any other sensor.
 
         Returns what the mission may count on because of it: the pose that corrected the estimate,
         the surface that a depth image shows, the sample itself where the stack makes nothing of

@@ -15,14 +15,13 @@ is where it enters. At rest in contact τ_e = R M̃ Rᵀ K̃ x̃.
 
 from __future__ import annotations
 
-import operator
 from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
 
-from inspect_cli.compiled import bound, kernel
-from inspect_cli.records import Command, Estimate, Record, Reference
+from inspect_cli.compiled import Bound, bound, kernel
+from inspect_cli.records import Command, Estimate, Reference
 from inspect_cli.schema.vehicle import ControlModel, ImpedanceProfile
 from inspect_cli.spatial.arrays import Matrix, Vector
 from inspect_cli.spatial.constants import GRAVITY_MPS2
@@ -163,7 +162,7 @@ BLEND_S = 0.5
 
 
 class ImpedanceController:
-    """The law with the profiles of a platform; one call writes the wrench into a Command.
+    """The law with the profiles of a platform.
 
     ``Reference.impedance`` says which profile holds, by its place in the platform's file. The
     first one that is asked for holds at once; a later change is blended in over ``BLEND_S``,
@@ -181,30 +180,21 @@ class ImpedanceController:
         self._now = Impedance(np.zeros((2, 3, 3)), np.zeros(6), np.zeros(6))
         self.turn_tool(R_BT)
         self.weight_B = np.zeros(3)
-        self._records: tuple[Record | None, ...] = (None, None, None)
 
     def turn_tool(self, R_BT: Matrix) -> None:
         """Follow an arm that turned its tool in B."""
         self._all = [Impedance.of(self._model, profile, R_BT) for profile in self._profiles]
         self._now.become(Impedance.mixed(self._all, self._shares))
 
-    def update(self, estimate: Estimate, reference: Reference, command: Command) -> None:
-        """Write ``command.wrench_B``."""
-        self._choose(int(reference.views["impedance"][0]))
-        given = (estimate, reference, command)
-        if not all(map(operator.is_, given, self._records)):
-            self._bind(*given)
-        self._law()
-
-    def _bind(self, estimate: Estimate, reference: Reference, command: Command) -> None:
+    def bind(self, estimate: Estimate, reference: Reference, command: Command) -> Bound:
+        """The law: it writes ``command.wrench_B``; ``follow`` says with which profile."""
         body, now = self._body, self._now
-        self._records = (estimate, reference, command)
-        self._law = bound(
+        return bound(
             impedance_wrench,
             *(estimate.views[name] for name in ("p_WB", "q_WB", "v_WB_W", "w_WB_B", "wrench_B")),
             *(reference.views[name] for name in ("p_WB", "q_WB", "v_WB_W", "w_WB_B")),
             *(reference.views[name] for name in ("a_WB_W", "alpha_WB_B")),
-            body.mass_kg,
+            float(body.mass_kg),
             body.inertia_B,
             body.com_B,
             now.shaping,
@@ -214,8 +204,8 @@ class ImpedanceController:
             self.weight_B,
         )
 
-    def _choose(self, profile: int) -> None:
-        """Follow the profile that the reference asks for."""
+    def follow(self, profile: int) -> None:
+        """Take the profile that the reference asks for; called at every control tick."""
         if profile != self._chosen:
             # The first is blended in, too: in the one step that is left of its blend.
             self._tick = self._blend_ticks - 1 if self._chosen < 0 else 0

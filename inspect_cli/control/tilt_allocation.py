@@ -17,7 +17,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from inspect_cli.compiled import bound, kernel
+from inspect_cli.compiled import Bound, bound, kernel
 from inspect_cli.records import Command
 from inspect_cli.spatial.arrays import Matrix, Vector
 
@@ -110,9 +110,7 @@ class TiltAllocation:
     def __init__(self, azimuth_rad: Vector, distance_m: float, kappa_m: Vector, limit_n: float):
         self.matrix = allocation_matrix(azimuth_rad, distance_m, kappa_m)
         self._inverse = np.ascontiguousarray(np.linalg.pinv(self.matrix))
-        self._limit_n = limit_n
-        self._command: Command | None = None
-        self._weight_B: Vector | None = None
+        self._limit_n = float(limit_n)
 
     def group_thrusts(self, wrench_B: Vector) -> Vector:
         """Thrust (n,) that each group would need for a wrench (6,), without limits, N."""
@@ -126,21 +124,18 @@ class TiltAllocation:
         n = len(solution) // 2
         return np.arctan2(solution[:n], solution[n:])
 
-    def update(self, weight_B: Vector, command: Command) -> None:
-        """Turn ``command.wrench_B`` into thrusts, tilts and the granted wrench."""
-        if command is not self._command or weight_B is not self._weight_B:
-            self._command, self._weight_B = command, weight_B
-            c = command.views
-            self._allocate = bound(
-                allocate,
-                c["wrench_B"],
-                weight_B,
-                self.matrix,
-                self._inverse,
-                self._limit_n,
-                c["joint_angle"],
-                c["rotor_thrust"],
-                c["allocated_B"],
-                c["saturated"],
-            )
-        self._allocate()
+    def bind(self, weight_B: Vector, command: Command) -> Bound:
+        """The call that turns ``command.wrench_B`` into thrusts, tilts and the granted wrench."""
+        c = command.views
+        return bound(
+            allocate,
+            c["wrench_B"],
+            weight_B,
+            self.matrix,
+            self._inverse,
+            self._limit_n,
+            c["joint_angle"],
+            c["rotor_thrust"],
+            c["allocated_B"],
+            c["saturated"],
+        )

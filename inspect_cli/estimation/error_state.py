@@ -18,11 +18,12 @@ odometry's frame, and the error against W is larger and grows without a bound.
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from typing import Final
 
 import numpy as np
 
-from inspect_cli.compiled import bound
+from inspect_cli.compiled import Bound, bound
 from inspect_cli.estimation.filtering import advance_to_sample, correct_to_pose
 from inspect_cli.estimation.kalman import STATES, publish
 from inspect_cli.records import Estimate, Imu, Pose
@@ -81,10 +82,6 @@ class ErrorStateFilter:
         self.rejected = 0
         self._belief = (self._p, self._v, self._q, self._bias, self.covariance)
         self._sampling = (self._held, self._times, self._noise, float(imu_hz))
-        self._imu: Imu | None = None
-        self._pose: Pose | None = None
-        self._estimate: Estimate | None = None
-        self._corrected: Estimate | None = None
 
     def start(self, pose: Pose, estimate: Estimate) -> None:
         """Begin at rest at a measured pose, with biases unknown as the model says.
@@ -101,41 +98,40 @@ class ErrorStateFilter:
         self._restart_motion(pose)
         self._publish(estimate)
 
-    def propagate(self, imu: Imu, estimate: Estimate) -> None:
-        """Advance to the time of an inertial sample; one that is not finite is ignored."""
-        if imu is not self._imu or estimate is not self._estimate:
-            self._imu, self._estimate = imu, estimate
-            self._to_sample = bound(
-                advance_to_sample,
-                *imu.views.values(),
-                *self._belief,
-                *self._sampling,
-                estimate.array,
-            )
-        self._to_sample()
+    def bind_propagation(self, imu: Imu, estimate: Estimate) -> Bound:
+        """The advance to the time of an inertial sample; one that is not finite is ignored."""
+        return bound(
+            advance_to_sample,
+            *imu.views.values(),
+            *self._belief,
+            *self._sampling,
+            estimate.array,
+        )
 
-    def correct(self, pose: Pose, estimate: Estimate) -> bool:
-        """Correct with a pose measurement; False if it was rejected or is not finite."""
-        if pose is not self._pose or estimate is not self._corrected:
-            self._pose, self._corrected = pose, estimate
-            self._to_pose = bound(
-                correct_to_pose,
-                *pose.views.values(),
-                *self._belief,
-                *self._sampling,
-                self._walks,
-                self._pose_variance,
-                GATE,
-                estimate.array,
-            )
-        chi2 = self._to_pose()
-        if chi2 <= GATE:
-            self.rejected = 0
+    def bind_correction(self, pose: Pose, estimate: Estimate) -> Callable[[], bool]:
+        """The correction by a pose measurement; False if it was rejected or is not finite."""
+        to_pose = bound(
+            correct_to_pose,
+            *pose.views.values(),
+            *self._belief,
+            *self._sampling,
+            self._walks,
+            self._pose_variance,
+            GATE,
+            estimate.array,
+        )
+
+        def correct() -> bool:
+            chi2 = to_pose()
+            if chi2 <= GATE:
+                self.rejected = 0
+                return True
+            if not self._outvoted(pose, chi2):
+                return False
+            self._publish(estimate)
             return True
-        if not self._outvoted(pose, chi2):
-            return False
-        self._publish(estimate)
-        return True
+
+        return correct
 
     def _outvoted(self, pose: Pose, chi2: float) -> bool:
         """Count a rejection; restart from the pose when there were too many."""

@@ -28,7 +28,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from inspect_cli.compiled import bound, kernel
+from inspect_cli.compiled import Bound, bound, kernel
 from inspect_cli.records import Estimate
 from inspect_cli.spatial.arrays import Matrix, Vector
 from inspect_cli.spatial.constants import GRAVITY_MPS2
@@ -115,8 +115,6 @@ class WrenchObserver:
         self._dt = dt
         self._last = np.zeros(13)
         self._observed = np.zeros(6)
-        self._estimate: Estimate | None = None
-        self._applied: Vector | None = None
 
     def reset(self, estimate: Estimate) -> None:
         """Begin with no external wrench at the estimated motion."""
@@ -126,23 +124,23 @@ class WrenchObserver:
         self._observed[:] = 0.0
         estimate.wrench_B[:] = 0.0
 
-    def update(self, estimate: Estimate, applied_wrench_B: Vector) -> None:
-        """Write ``estimate.wrench_B``, given the wrench (6,) applied since the last update."""
-        if estimate is not self._estimate or applied_wrench_B is not self._applied:
-            self._estimate, self._applied = estimate, applied_wrench_B
-            self._observe = bound(
-                observe,
-                self._mass,
-                self._inertia_com,
-                self._com,
-                self._decay,
-                self._dt,
-                self._last,
-                self._observed,
-                estimate.q_WB,
-                estimate.v_WB_W,
-                estimate.w_WB_B,
-                applied_wrench_B,
-                estimate.wrench_B,
-            )
-        self._observe()
+    def bind(self, estimate: Estimate, applied_wrench_B: Vector) -> Bound:
+        """The update: it writes ``estimate.wrench_B``.
+
+        At its call ``applied_wrench_B`` (6,) holds the wrench applied since the last one.
+        """
+        return bound(
+            observe,
+            self._mass,
+            self._inertia_com,
+            self._com,
+            self._decay,
+            self._dt,
+            self._last,
+            self._observed,
+            estimate.q_WB,
+            estimate.v_WB_W,
+            estimate.w_WB_B,
+            applied_wrench_B,
+            estimate.wrench_B,
+        )

@@ -25,7 +25,7 @@ from inspect_cli.compiled import bound
 from inspect_cli.guidance.approach import Approach
 from inspect_cli.guidance.contact_frame import ContactFrame
 from inspect_cli.guidance.motion import Motion, MotionLimits
-from inspect_cli.guidance.quintic import evaluate_motion
+from inspect_cli.guidance.quintic import write_motion
 from inspect_cli.guidance.stroke import StrokePath, along, corrected
 from inspect_cli.guidance.surface_tracking import HORIZON_S, SurfaceTracking
 from inspect_cli.guidance.trajectory import (
@@ -87,7 +87,16 @@ class Pursuit:
         self._stretch: Stretch | None = None
         views = self.reference.views
         self._t_s = views["t_s"]
-        self._written = (
+        self._timing, self._q_start = np.zeros(3), np.zeros(4)
+        self._position, self._rotation = np.zeros((6, 3)), np.zeros((6, 3))
+        self.evaluate = bound(
+            write_motion,
+            self._timing,
+            self._position,
+            self._rotation,
+            self._q_start,
+            self._p_BT,
+            self._t_s,
             views["p_WB"],
             views["q_WB"],
             views["v_WB_W"],
@@ -96,6 +105,7 @@ class Pursuit:
             views["alpha_WB_B"],
             views["p_WT"],
         )
+        """Writes the motion into ``reference``, after ``prepare``."""
         self.write(0.0)
 
     def take_impedance(self, name: str) -> None:
@@ -216,25 +226,21 @@ class Pursuit:
 
     def write(self, t_s: float) -> None:
         """Write the motion of the instant into ``reference``."""
+        self.prepare(t_s)
+        self.evaluate()
+
+    def prepare(self, t_s: float) -> None:
+        """Look up what ``evaluate`` needs for the instant ``t_s``."""
+        self._t_s[0] = t_s
         stretch = self._trajectory.at(t_s)
         if self._has_arm:
             self._arm_angle[:] = stretch.arm_motion(t_s)[0]
             self._p_BT[:] = self._tool_offset()
         if stretch is not self._stretch:
-            self._stretch, self._start_s = stretch, stretch.start_s
-            self._evaluate = bound(
-                evaluate_motion,
-                stretch.duration_s,
-                stretch.turn_s,
-                stretch.position,
-                stretch.rotation,
-                stretch.q_start,
-                self._p_BT,
-                *self._written,
-                then=(0.0,),
-            )
-        self._evaluate(t_s - self._start_s)
-        self._t_s[0] = t_s
+            self._stretch = stretch
+            self._timing[:] = stretch.start_s, stretch.duration_s, stretch.turn_s
+            self._position[:], self._rotation[:] = stretch.position, stretch.rotation
+            self._q_start[:] = stretch.q_start
 
     def _follow(self, trajectory: Trajectory) -> None:
         self._trajectory = trajectory

@@ -140,6 +140,44 @@ def evaluate_motion(
 
 
 @kernel
+def write_motion(
+    timing: Vector,
+    position: Matrix,
+    rotation: Matrix,
+    q_start: Vector,
+    p_BT: Vector,
+    t_s: Vector,
+    p_WB: Vector,
+    q_WB: Vector,
+    v_WB_W: Vector,
+    w_WB_B: Vector,
+    a_WB_W: Vector,
+    alpha_WB_B: Vector,
+    p_WT: Vector,
+) -> None:
+    """``evaluate_motion`` at ``t_s`` (1,) of a stretch with ``timing`` (3,) s.
+
+    That is its start, its duration and the duration of its turn.
+    """
+    evaluate_motion(
+        timing[1],
+        timing[2],
+        position,
+        rotation,
+        q_start,
+        p_BT,
+        p_WB,
+        q_WB,
+        v_WB_W,
+        w_WB_B,
+        a_WB_W,
+        alpha_WB_B,
+        p_WT,
+        t_s[0] - timing[0],
+    )
+
+
+@kernel
 def survey(
     position: Matrix,
     rotation: Matrix,

@@ -1,12 +1,13 @@
 """Messages in the schemas that Foxglove and Rerun draw: poses, clouds, events.
 
-Schemas: https://docs.foxglove.dev/docs/sdk/schemas. Poses come at the rate of the states, so
-they are laid out like records, in blocks; the others are few and built one by one.
+Schemas: https://docs.foxglove.dev/docs/sdk/schemas. Poses are many, so they are laid out like
+records, in blocks; the others are few and built one by one.
 """
 
 from __future__ import annotations
 
 import struct
+from collections.abc import Sequence
 from typing import Any, Literal, NamedTuple
 
 import numpy as np
@@ -18,24 +19,30 @@ from google.protobuf.timestamp_pb2 import Timestamp
 from inspect_cli.log.layout import (
     WIRE_DOUBLE,
     WIRE_LENGTH_DELIMITED,
-    Bytes,
     MessageLayout,
-    Nanoseconds,
     Numbers,
     tag,
     varint,
 )
-from inspect_cli.spatial.arrays import Points, Structured
+from inspect_cli.spatial.arrays import Points, Vector
 
 WORLD_FRAME = "W"
 Level = Literal["debug", "info", "warning", "error", "fatal"]
 
-POSE_ROW = struct.Struct("<8d")
-"""t_s, p (3,), q (4,) wxyz: how a pose waits for its block."""
-POSE_ROWS: np.dtype[Any] = np.dtype([("t_s", "<f8"), ("p", "<f8", (3,)), ("q", "<f8", (4,))])
 VARINT_BYTES = 5
 """Times are written as varints of this length, whatever their value, to keep the layout fixed:
 protobuf allows leading zero groups. Seconds up to 2³⁵."""
+TIMES = ("seconds", "nanos")
+POSITION, ORIENTATION = ("px", "py", "pz"), ("qx", "qy", "qz", "qw")
+POSE_ROWS: np.dtype[Any] = np.dtype(
+    [
+        ("t_s", "<f8"),
+        *((name, "u1", (VARINT_BYTES,)) for name in TIMES),
+        *((name, "<f8") for name in (*POSITION, *ORIENTATION)),
+    ]
+)
+"""The parts of a pose's message, and its time."""
+_POSE = struct.Struct(f"<d{VARINT_BYTES}s{VARINT_BYTES}s7d")
 NUMERIC_TYPES: dict[int, str] = {
     PackedElementField.UINT8: "u1",
     PackedElementField.INT8: "i1",
@@ -67,27 +74,23 @@ def pose_layout(channel_id: int) -> MessageLayout:
     """foxglove.PoseInFrame in the world: timestamp 1, frame_id 2, pose 3."""
     timestamp: list[bytes | Numbers] = [
         tag(1, 0),
-        Numbers("seconds", "u1", (VARINT_BYTES,)),
+        Numbers(TIMES[0], "u1", (VARINT_BYTES,)),
         tag(2, 0),
-        Numbers("nanos", "u1", (VARINT_BYTES,)),
+        Numbers(TIMES[1], "u1", (VARINT_BYTES,)),
     ]
-    position = _doubles("px", "py", "pz")
-    orientation = _doubles("qx", "qy", "qz", "qw")
+    position, orientation = _doubles(*POSITION), _doubles(*ORIENTATION)
     pose = [*_nested(1, position), *_nested(2, orientation)]
     frame = WORLD_FRAME.encode()
     frame_id = tag(2, WIRE_LENGTH_DELIMITED) + varint(len(frame)) + frame
     return MessageLayout(channel_id, [*_nested(1, timestamp), frame_id, *_nested(3, pose)])
 
 
-def fill_poses(messages: Structured, rows: Structured, time: Nanoseconds) -> None:
-    """Write POSE_ROWS (n,) into messages (n,) of ``pose_layout``."""
-    seconds, nanos = np.divmod(time, np.uint64(10**9))
-    messages["seconds"] = _fixed_varints(seconds)
-    messages["nanos"] = _fixed_varints(nanos)
-    for k, axis in enumerate("xyz"):
-        messages["p" + axis] = rows["p"][:, k]
-    for k, axis in enumerate("wxyz"):
-        messages["q" + axis] = rows["q"][:, k]
+def pose_row(t_s: float, p: Sequence[float] | Vector, q: Sequence[float] | Vector) -> bytes:
+    """A pose as a row of POSE_ROWS; p (3,) m, unit quaternion q (4,) wxyz."""
+    seconds, nanos = divmod(round(t_s * 1e9), 10**9)
+    w, x, y, z = q
+    times = _fixed_varint(seconds), _fixed_varint(nanos)
+    return _POSE.pack(t_s, *times, *p, x, y, z, w)
 
 
 def point_cloud(time_ns: int, points_W: Points) -> PointCloud:
@@ -166,9 +169,7 @@ def _nested(number: int, parts: list[bytes | Numbers]) -> list[bytes | Numbers]:
     return [tag(number, WIRE_LENGTH_DELIMITED) + varint(size), *parts]
 
 
-def _fixed_varints(values: Nanoseconds) -> Bytes:
-    """Varints (n, VARINT_BYTES) of the values (n,): all bytes but the last say "more follows"."""
-    shifts = np.arange(0, 7 * VARINT_BYTES, 7, dtype=np.uint64)
-    groups = (values[:, None] >> shifts & np.uint64(0x7F)).astype(np.uint8)
-    groups[:, :-1] |= 0x80
-    return groups
+def _fixed_varint(value: int) -> bytes:
+    """A varint of VARINT_BYTES: all bytes but the last say "more follows"."""
+    more = [value >> shift & 0x7F | 0x80 for shift in range(0, 7 * VARINT_BYTES - 7, 7)]
+    return bytes([*more, value >> 7 * VARINT_BYTES - 7])

@@ -147,14 +147,9 @@ class MessageLayout:
         fixed = [np.full(_size(part), isinstance(part, bytes)) for part in parts]
         self._fixed = np.flatnonzero(np.concatenate(fixed))
 
-    def messages(self, log_time: Nanoseconds, first_sequence: int) -> Structured:
-        """Messages (n,) with their heads filled and their numbers zero."""
-        n = log_time.size
-        messages = np.frombuffer(bytearray(self._blank * n), self.dtype)
-        messages[SEQUENCE] = np.arange(first_sequence, first_sequence + n)
-        messages[LOG_TIME] = log_time
-        messages[PUBLISH_TIME] = log_time
-        return messages
+    def blank(self, n: int) -> Structured:
+        """Messages (n,) whose numbers, and those of their heads, are zero."""
+        return np.frombuffer(bytearray(self._blank * n), self.dtype)
 
     def matches(self, raw: Bytes) -> bool:
         """Whether message records (n, length) have this layout, byte for byte."""

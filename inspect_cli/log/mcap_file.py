@@ -50,7 +50,7 @@ class Block(NamedTuple):
     """Encoded Message records of one channel."""
 
     channel_id: int
-    data: bytes
+    data: bytes | memoryview
     log_time: Nanoseconds
     offset: Nanoseconds
     """Of each record from the start of ``data``."""

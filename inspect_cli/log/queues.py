@@ -3,48 +3,112 @@
 from __future__ import annotations
 
 import struct
-from collections.abc import Callable
-from typing import Any, TypeAlias
+from typing import Any, Final, NamedTuple
 
 import numpy as np
 from mcap.opcode import Opcode
 from numpy.typing import NDArray
 
-from inspect_cli.compiled import kernel
-from inspect_cli.log.layout import MESSAGE_HEAD, Bytes, MessageLayout, Nanoseconds, nanoseconds
+from inspect_cli.compiled import Bound, bound, kernel
+from inspect_cli.log.layout import (
+    LOG_TIME,
+    MESSAGE_HEAD,
+    PUBLISH_TIME,
+    SEQUENCE,
+    Bytes,
+    MessageLayout,
+    Nanoseconds,
+)
 from inspect_cli.log.mcap_file import Block
-from inspect_cli.spatial.arrays import Structured
+from inspect_cli.spatial.arrays import Structured, Vector
 
-Fill: TypeAlias = Callable[[Structured, Structured, Nanoseconds], None]
-"""Writes rows (n,) with their times into messages (n,) of a layout."""
+CAPACITY: Final = 1024
+"""Rows of one channel that can wait."""
+
+
+class Waiting(NamedTuple):
+    """Messages of a fixed layout that wait, as kernels fill them.
+
+    ``messages`` (CAPACITY, length) are their bytes, the others parts of the same memory; ``count``
+    (2,) is how many wait and how many were written before them.
+    """
+
+    messages: Bytes
+    sequence: NDArray[np.uint32]
+    log_time: Nanoseconds
+    publish_time: Nanoseconds
+    count: NDArray[np.int64]
+
+
+@kernel
+def append_row(row: Bytes, t_s: Vector, spans: NDArray[np.int64], waiting: Waiting) -> None:
+    """Encode a row of bytes (n,) as the next message.
+
+    Each of ``spans`` is (from, to, length), in bytes; ``t_s`` (1,) is a view of the row's time.
+    """
+    k = waiting.count[0]
+    message = waiting.messages[k]
+    for span in range(spans.shape[0]):
+        start, end = spans[span, 0], spans[span, 1]
+        for j in range(spans[span, 2]):
+            message[end + j] = row[start + j]
+    time = np.uint64(np.rint(t_s[0] * 1e9))
+    waiting.log_time[k] = time
+    waiting.publish_time[k] = time
+    waiting.sequence[k] = waiting.count[1] + k
+    waiting.count[0] = k + 1
 
 
 class RowQueue:
-    """Rows whose messages have a fixed layout, encoded all at once.
+    """Rows whose messages have a fixed layout; a row is encoded as it comes.
 
-    ``pending`` holds the bytes of each row; ``rows`` is their dtype, with a field ``t_s``.
+    ``rows`` is the dtype of a row: a field ``t_s``, and one for each part of the message.
     """
 
-    def __init__(
-        self, channel_id: int, layout: MessageLayout, rows: np.dtype[Any], fill: Fill
-    ) -> None:
-        self.pending: list[bytes] = []
+    def __init__(self, channel_id: int, layout: MessageLayout, rows: np.dtype[Any]) -> None:
         self._channel_id = channel_id
-        self._layout = layout
-        self._rows = rows
-        self._fill = fill
-        self._count = 0
+        size = layout.dtype.itemsize
+        self._offsets = np.arange(CAPACITY, dtype=np.uint64) * size
+        self._spans = np.array(
+            [
+                (_offset(rows, name), _offset(layout.dtype, name), rows[name].itemsize)
+                for name in rows.names or ()
+                if name in (layout.dtype.names or ())
+            ]
+        )
+        messages = layout.blank(CAPACITY)
+        self._waiting = Waiting(
+            messages.view(np.uint8).reshape(CAPACITY, size),
+            messages[SEQUENCE],
+            messages[LOG_TIME],
+            messages[PUBLISH_TIME],
+            np.zeros(2, np.int64),
+        )
+        self._row: Structured | None = None
+
+    @property
+    def waiting(self) -> int:
+        """How many messages wait."""
+        return int(self._waiting.count[0])
+
+    def bind(self, row: Structured) -> Bound:
+        """The call that copies a row (1,) and encodes it; there has to be room for it."""
+        data = row.view(np.uint8)
+        return bound(append_row, data, row["t_s"], self._spans, self._waiting)
+
+    def append(self, row: Structured) -> None:
+        """Copy a row (1,) and encode it; there has to be room for it."""
+        if row is not self._row:
+            self._row, self._append = row, self.bind(row)
+        self._append()
 
     def drain(self) -> Block:
-        """Everything that waits, encoded; nothing waits afterwards."""
-        rows = np.frombuffer(b"".join(self.pending), self._rows)
-        self.pending.clear()
-        time = nanoseconds(rows["t_s"])
-        messages = self._layout.messages(time, self._count)
-        self._fill(messages, rows, time)
-        self._count += rows.size
-        offset = np.arange(0, messages.nbytes, messages.itemsize, dtype=np.uint64)
-        return Block(self._channel_id, messages.tobytes(), time, offset)
+        """Everything that waits, in memory that the next row overwrites; nothing waits afterwards."""
+        waiting, n = self._waiting, self.waiting
+        waiting.count[0] = 0
+        waiting.count[1] += n
+        data = memoryview(waiting.messages[:n]).cast("B")
+        return Block(self._channel_id, data, waiting.log_time[:n], self._offsets[:n])
 
 
 class MessageQueue:
@@ -54,6 +118,11 @@ class MessageQueue:
         self.pending: list[tuple[int, bytes]] = []
         self._channel_id = channel_id
         self._count = 0
+
+    @property
+    def waiting(self) -> int:
+        """How many messages wait."""
+        return len(self.pending)
 
     def drain(self) -> Block:
         """Everything that waits, as records; nothing waits afterwards."""
@@ -70,34 +139,6 @@ class MessageQueue:
         self._count += len(records)
         self.pending.clear()
         return Block(self._channel_id, b"".join(records), times, offset)
-
-
-class FieldCopy:
-    """Copies every field of rows into the part of the messages that has its name."""
-
-    def __init__(self, rows: np.dtype[Any], messages: np.dtype[Any]) -> None:
-        self._spans = np.array(
-            [
-                (_offset(rows, name), _offset(messages, name), rows[name].itemsize)
-                for name in rows.names or ()
-            ]
-        )
-
-    def __call__(self, messages: Structured, rows: Structured, time: Nanoseconds) -> None:
-        """Rows (n,) into messages (n,); a row carries its own time, exactly."""
-        source = rows.view(np.uint8).reshape(rows.size, rows.itemsize)
-        target = messages.view(np.uint8).reshape(messages.size, messages.itemsize)
-        copy_spans(source, target, self._spans)
-
-
-@kernel
-def copy_spans(source: Bytes, target: Bytes, spans: NDArray[np.int64]) -> None:
-    """Copy bytes (from, to, length) of each row of ``source`` (n, ·) into ``target`` (n, ·)."""
-    for row in range(source.shape[0]):
-        for k in range(spans.shape[0]):
-            start, end = spans[k, 0], spans[k, 1]
-            for j in range(spans[k, 2]):
-                target[row, end + j] = source[row, start + j]
 
 
 def _offset(dtype: np.dtype[Any], name: str) -> int:

@@ -6,7 +6,7 @@ import os
 from collections.abc import Callable, Sequence
 from pathlib import Path
 from types import TracebackType
-from typing import NamedTuple, Self, get_args
+from typing import Self, get_args
 
 import numpy as np
 from foxglove_schemas_protobuf.Log_pb2 import Log
@@ -15,25 +15,18 @@ from foxglove_schemas_protobuf.PoseInFrame_pb2 import PoseInFrame
 from foxglove_schemas_protobuf.SceneUpdate_pb2 import SceneUpdate
 from google.protobuf.message import Message
 from mcap_protobuf.schema import build_file_descriptor_set
-from numpy.typing import ArrayLike
 
+from inspect_cli.compiled.joined import joined
 from inspect_cli.errors import EnvironmentFault
 from inspect_cli.log import foxglove, layout
 from inspect_cli.log.mcap_file import McapFile
 from inspect_cli.log.names import EVENTS, OUTCOME, SCENE
-from inspect_cli.log.queues import FieldCopy, MessageQueue, RowQueue
+from inspect_cli.log.queues import CAPACITY, MessageQueue, RowQueue
 from inspect_cli.log.scene import plan_scene
 from inspect_cli.records import Lengths, Record
 from inspect_cli.schema.plan import Plan
 from inspect_cli.schema.result import Status
-from inspect_cli.spatial.arrays import Points
-
-
-class Tap(NamedTuple):
-    """A record that is logged again and again: ``tap.queue(tap.row())`` copies one row."""
-
-    row: Callable[[], bytes]
-    queue: Callable[[bytes], None]
+from inspect_cli.spatial.arrays import Points, Vector
 
 
 class LogWriter:
@@ -63,7 +56,10 @@ class LogWriter:
         self._closed = False
         self._lengths = lengths
         self._rows = {record: self._row_queue(record, lengths) for record in records}
+        self._room = CAPACITY
+        """How many rows still fit into every queue, at the least."""
         self._poses: dict[str, RowQueue] = {}
+        self._pose = np.zeros(1, foxglove.POSE_ROWS)
         self._messages: dict[str, MessageQueue] = {}
 
     def attach(self, name: str, media_type: str, data: bytes) -> None:
@@ -77,19 +73,29 @@ class LogWriter:
 
     def log(self, record: Record) -> None:
         """Copy one row."""
-        self._rows[type(record)].pending.append(record.array.tobytes())
+        self._make_room()
+        self._rows[type(record)].append(record.array)
 
-    def tap(self, record: Record) -> Tap:
-        """What ``log`` does with this one record, looked up once."""
-        return Tap(record.array.tobytes, self._rows[type(record)].pending.append)
+    def tap(self, records: Sequence[Record]) -> Callable[[], None]:
+        """What ``log`` does with records of different types, as one call."""
+        copy = joined(*(self._rows[type(record)].bind(record.array) for record in records))
 
-    def pose(self, topic: str, t_s: float, p: ArrayLike, q: ArrayLike) -> None:
+        def copy_rows() -> None:
+            self._make_room()
+            copy()
+
+        return copy_rows
+
+    def pose(
+        self, topic: str, t_s: float, p: Sequence[float] | Vector, q: Sequence[float] | Vector
+    ) -> None:
         """Log a pose in W for viewers: p (3,) m and unit quaternion q (4,) wxyz."""
         queue = self._poses.get(topic)
         if queue is None:
             queue = self._poses[topic] = self._pose_queue(topic)
-        row = foxglove.POSE_ROW.pack(t_s, *np.asarray(p).tolist(), *np.asarray(q).tolist())
-        queue.pending.append(row)
+        self._pose[:] = np.frombuffer(foxglove.pose_row(t_s, p, q), foxglove.POSE_ROWS)
+        self._make_room()
+        queue.append(self._pose)
 
     def point_cloud(self, topic: str, t_s: float, points_W: Points) -> None:
         """Log points (n, 3) m in W, in single precision, without those that are not finite."""
@@ -143,13 +149,20 @@ class LogWriter:
         finally:
             self._file.close()
 
+    def _make_room(self) -> None:
+        """Room for one row in every queue."""
+        if self._room == 0:
+            self._write_chunk()
+        self._room -= 1
+
     def _write_chunk(self) -> None:
         queues: list[RowQueue | MessageQueue] = [
             *self._rows.values(),
             *self._poses.values(),
             *self._messages.values(),
         ]
-        self._file.write_chunk([queue.drain() for queue in queues if queue.pending])
+        self._file.write_chunk([queue.drain() for queue in queues if queue.waiting])
+        self._room = CAPACITY
 
     def _row_queue(self, record: type[Record], lengths: Lengths) -> RowQueue:
         fields = layout.fields_of(record, lengths)
@@ -157,14 +170,12 @@ class LogWriter:
         schema_id = self._file.add_schema(name, layout.descriptor_set(name, fields))
         metadata = layout.channel_metadata(fields)
         channel_id = self._file.add_channel(record.topic, schema_id, metadata)
-        rows = layout.rows_dtype(fields)
         messages = layout.record_layout(channel_id, fields)
-        return RowQueue(channel_id, messages, rows, FieldCopy(rows, messages.dtype))
+        return RowQueue(channel_id, messages, layout.rows_dtype(fields))
 
     def _pose_queue(self, topic: str) -> RowQueue:
         channel_id = self._foxglove_channel(topic, PoseInFrame)
-        poses = foxglove.pose_layout(channel_id)
-        return RowQueue(channel_id, poses, foxglove.POSE_ROWS, foxglove.fill_poses)
+        return RowQueue(channel_id, foxglove.pose_layout(channel_id), foxglove.POSE_ROWS)
 
     def _foxglove_channel(self, topic: str, kind: type[Message]) -> int:
         descriptors = build_file_descriptor_set(kind).SerializeToString(deterministic=True)

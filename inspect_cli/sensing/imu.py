@@ -12,11 +12,11 @@ from __future__ import annotations
 
 import numpy as np
 
-from inspect_cli.compiled import bound, kernel
+from inspect_cli.compiled import Bound, bound, kernel
 from inspect_cli.records import Imu, State
 from inspect_cli.schema.vehicle import ImuModel
 from inspect_cli.sensing.instrument import Noise, Surroundings
-from inspect_cli.spatial.arrays import Matrix, Vector
+from inspect_cli.spatial.arrays import Indices, Matrix, Vector
 from inspect_cli.spatial.constants import GRAVITY_MPS2
 from inspect_cli.spatial.rotations import rotate_back
 from inspect_cli.truth.snapshot import Truth
@@ -29,19 +29,19 @@ def measure_motion(
     a_W: Vector,
     w_B: Vector,
     noises: Matrix,
+    row: Indices,
     sd: Vector,
     bias: Vector,
     t_measured: Vector,
     f_measured: Vector,
     w_measured: Vector,
-    draw: int,
 ) -> None:
     """Write the time (1,), specific force and rate, and let the biases walk.
 
-    ``noises[draw]`` (12,) is standard normal for f, w, b_f, b_w; ``sd`` (4,) are their standard
+    ``noises[row[0]]`` (12,) is standard normal for f, w, b_f, b_w; ``sd`` (4,) are their standard
     deviations per sample; ``bias`` (6,) = (b_f, b_w) is changed in place.
     """
-    noise = noises[draw]
+    noise = noises[row[0]]
     push = np.empty(3)
     for i in range(3):
         push[i] = a_W[i]
@@ -71,30 +71,34 @@ class ImuSensor:
         )
         initial = [model.accel_bias_initial_mps2, model.gyro_bias_initial_radps]
         self._bias = np.repeat(initial, 3) * rng.standard_normal(6)
-        self._noise = Noise(rng, 12)
+        self.noise = Noise(rng, 12)
         self._seen: State | None = None
 
     def sample(self, truth: Truth) -> Imu:
         """Measure now."""
         if truth.state is not self._seen:
-            self._seen = truth.state
-            true, measured = truth.state.views, self.measurement.views
-            self._measure = bound(
-                measure_motion,
-                true["t_s"],
-                true["q_WB"],
-                true["a_WB_W"],
-                true["w_WB_B"],
-                self._noise.block,
-                self._sd,
-                self._bias,
-                measured["t_s"],
-                measured["f_B"],
-                measured["w_B"],
-                then=(0,),
-            )
-        self._measure(self._noise.next_row())
+            self._seen, self._measure = truth.state, self.bind(truth)
+        self.noise.advance()
+        self._measure()
         return self.measurement
+
+    def bind(self, truth: Truth) -> Bound:
+        """The measurement as a kernel; ``noise`` has to be advanced before each call."""
+        true, measured = truth.state.views, self.measurement.views
+        return bound(
+            measure_motion,
+            true["t_s"],
+            true["q_WB"],
+            true["a_WB_W"],
+            true["w_WB_B"],
+            self.noise.block,
+            self.noise.row,
+            self._sd,
+            self._bias,
+            measured["t_s"],
+            measured["f_B"],
+            measured["w_B"],
+        )
 
 
 def imu_sensor(model: ImuModel, around: Surroundings) -> ImuSensor:

@@ -33,7 +33,7 @@ from inspect_cli.schema.base import Triple
 from inspect_cli.schema.vehicle import OdometryModel
 from inspect_cli.sensing.instrument import Noise, Surroundings
 from inspect_cli.sensing.pose_tracker import measure_pose
-from inspect_cli.spatial.arrays import Matrix, Vector
+from inspect_cli.spatial.arrays import Indices, Matrix, Vector
 from inspect_cli.spatial.rotations import (
     quaternion_conjugate,
     quaternion_exp,
@@ -78,6 +78,7 @@ def dead_reckon(
     p: Vector,
     q: Vector,
     noises: Matrix,
+    row: Indices,
     steady: Vector,
     tilt: Vector,
     last: Vector,
@@ -88,14 +89,13 @@ def dead_reckon(
     t_measured: Vector,
     p_measured: Vector,
     q_measured: Vector,
-    draw: int,
 ) -> None:
-    """Write time (1,) and pose, measured with the noise ``noises[draw]`` (10,).
+    """Write time (1,) and pose, measured with the noise ``noises[row[0]]`` (10,).
 
     ``steady`` (3,) m/s is u in W, ``tilt`` (4,) the misalignment as a quaternion, ``white`` (2,)
     = (σ_w, σ_θ). ``t_measured`` before the call is the time of the last sample.
     """
-    noise = noises[draw]
+    noise = noises[row[0]]
     since = t[0] - t_measured[0]
     for i in range(3):
         believed[i] += steady[i] * since
@@ -149,6 +149,7 @@ class OdometrySensor:
                 true["p_WB"],
                 true["q_WB"],
                 self._noise.block,
+                self._noise.row,
                 self._drift_mps,
                 self._tilt,
                 self._last,
@@ -159,9 +160,9 @@ class OdometrySensor:
                 measured["t_s"],
                 measured["p_WB"],
                 measured["q_WB"],
-                then=(0,),
             )
-        self._measure(self._noise.next_row())
+        self._noise.advance()
+        self._measure()
         return self.measurement
 
 

@@ -11,7 +11,7 @@ from inspect_cli.compiled import bound, kernel
 from inspect_cli.records import Pose, State
 from inspect_cli.schema.vehicle import PoseTrackerModel
 from inspect_cli.sensing.instrument import Noise, Surroundings
-from inspect_cli.spatial.arrays import Matrix, Vector
+from inspect_cli.spatial.arrays import Indices, Matrix, Vector
 from inspect_cli.spatial.rotations import (
     quaternion_exp,
     quaternion_multiply,
@@ -40,15 +40,15 @@ def track(
     p: Vector,
     q: Vector,
     noises: Matrix,
+    row: Indices,
     sd: Vector,
     t_measured: Vector,
     p_measured: Vector,
     q_measured: Vector,
-    draw: int,
 ) -> None:
-    """Write time (1,) and pose, measured with the noise ``noises[draw]``."""
+    """Write time (1,) and pose, measured with the noise ``noises[row[0]]``."""
     t_measured[0] = t[0]
-    measure_pose(p, q, noises[draw], sd, p_measured, q_measured)
+    measure_pose(p, q, noises[row[0]], sd, p_measured, q_measured)
 
 
 class PoseSensor:
@@ -71,13 +71,14 @@ class PoseSensor:
                 true["p_WB"],
                 true["q_WB"],
                 self._noise.block,
+                self._noise.row,
                 self._sd,
                 measured["t_s"],
                 measured["p_WB"],
                 measured["q_WB"],
-                then=(0,),
             )
-        self._track(self._noise.next_row())
+        self._noise.advance()
+        self._track()
         return self.measurement
 
 

@@ -1,7 +1,7 @@
 """The flight loop. Every tick reads top to bottom in the same order:
 
-observe → sample the due sensors, which stack and executive hear → the stack's own loops →
-the executive decides → the stack controls → apply → record → step.
+sample the due sensors, which stack and executive hear → the stack's own loops →
+the executive decides → the stack controls → apply → record → step and observe.
 """
 
 from __future__ import annotations
@@ -116,7 +116,11 @@ class Flight:
         for mount in self.mounts:
             if isinstance(mount.sensor.measurement, Record):
                 log.declare(type(mount.sensor.measurement))
-            mount.listeners = self._listeners(mount)
+            if isinstance(mount.sensor.measurement, Imu):  # logged with the continuous channels
+                heard = self.stack.propagation(mount.sensor.measurement)
+                mount.heard_by(heard, self.truth)
+            else:
+                mount.listeners = self._listeners(mount)
         for judging in judges.values():
             log.declare(judging.reading)
         due = {mount.name: mount.rate_hz for mount in self.mounts} | {
@@ -164,11 +168,9 @@ class Flight:
 
     def _tick(self, tick: Tick) -> None:
         due, plant, stack = tick.due, self.plant, self.stack
-        state = plant.observe(tick.t_s)
         for mount in self.mounts:
-            if mount.name in due and (measurement := mount.sample(self.truth)) is not None:
-                for listener in mount.listeners:
-                    listener(measurement)
+            if mount.name in due:
+                mount.deliver(self.truth)
         for loop in stack.loops:
             if loop in due:
                 stack.run(loop, tick.t_s)
@@ -181,7 +183,7 @@ class Flight:
         if "log" in due:
             if "control" not in due:
                 stack.refer(tick.t_s)
-            self.contact.update(state)
+            self.contact.update(plant.state)
             plant.observe_contacts(tick.t_s)
             self.recorder.rows(tick.t_s)
 
@@ -189,7 +191,6 @@ class Flight:
         """Who hears a sensor, by what it returns: unless it says otherwise, all and the log."""
         row = self.recorder.row
         heard_by: dict[type, tuple[Listener, ...]] = {
-            Imu: (self.stack.hear,),  # logged with the other channels at the log's rate
             Pose: (self._hear,),
             Odometry: (row, self._hear),
             DepthImage: (partial(self._see, mount.name),),

@@ -5,7 +5,8 @@ from __future__ import annotations
 from collections.abc import Callable, Collection, Iterator
 from typing import TypeAlias
 
-from inspect_cli.records import Lengths, Measurement
+from inspect_cli.compiled.joined import joined
+from inspect_cli.records import Lengths
 from inspect_cli.schema.positioning import Estimation
 from inspect_cli.schema.truth import WALL, TruthModel
 from inspect_cli.schema.vehicle import (
@@ -15,7 +16,7 @@ from inspect_cli.schema.vehicle import (
     SensorModel,
 )
 from inspect_cli.schema.vehicle.sensors import SENSORS
-from inspect_cli.sensing.instrument import SimulatedSensor, Surroundings
+from inspect_cli.sensing.instrument import KernelSensor, SimulatedSensor, Surroundings
 from inspect_cli.sensing.sensors import simulated
 from inspect_cli.sensing.wall_force import WallForceSensor
 from inspect_cli.simulation.randomness import component_rng
@@ -35,16 +36,35 @@ class Mount:
         self.rate_hz = rate_hz
         self.sensor = sensor
         self.listeners: tuple[Listener, ...] = ()
-        self._sample: Sample = sensor.sample
+        self.sample: Sample = sensor.sample
+        """What the sensor returns now; None when nothing came."""
+        self.deliver: Callable[[Truth], object] = self._deliver
+        """Samples the sensor and hands on what it returns."""
 
     def fail(self, faults: Faults, seed: int) -> None:
         """Let the sensor fail where the mission says so."""
         rng = component_rng(seed, f"{self.name} holes")
-        self._sample = faults.applied_to(self.name, self._sample, rng)
+        self.sample = faults.applied_to(self.name, self.sample, rng)
 
-    def sample(self, truth: Truth) -> Measurement | None:
-        """What the sensor returns now; None when nothing came."""
-        return self._sample(truth)
+    def _deliver(self, truth: Truth) -> None:
+        measurement = self.sample(truth)
+        if measurement is not None:
+            for listener in self.listeners:
+                listener(measurement)
+
+    def heard_by(self, listener: Callable[[], object], truth: Truth) -> None:
+        """Hand on to one call alone, joined with the sensor's kernel where it has one."""
+        sensor = self.sensor
+        if self.sample != sensor.sample or not isinstance(sensor, KernelSensor):
+            self.listeners = (lambda measurement: listener(),)
+            return
+        measure_and_hear, advance = joined(sensor.bind(truth), listener), sensor.noise.advance
+
+        def deliver(truth: Truth) -> None:
+            advance()
+            measure_and_hear()
+
+        self.deliver = deliver
 
 
 def mounts_of(

@@ -14,6 +14,7 @@ import mujoco
 import numpy as np
 
 from inspect_cli.compiled import bound
+from inspect_cli.compiled.joined import joined
 from inspect_cli.errors import InputError
 from inspect_cli.interfaces import TOOL, Posture
 from inspect_cli.records import Command, Lengths, State
@@ -79,6 +80,7 @@ class Plant:
         self.contacts = {c.name: wrench_record(c.name).create() for c in vehicle.contacts}
         """Wrenches by the name of the contact; ``observe_contacts`` brings them up to date."""
         self._plates = Plates(model, self.data, solids, vehicle.contacts)
+        self._physics_hz = vehicle.platform.rates.physics_hz
         self._steps_per_placing = max(round(1.0 / (control_hz * model.opt.timestep)), 1)
         self.disturbances = disturbances
         self._proximity = proximity
@@ -97,9 +99,10 @@ class Plant:
         self._ctrl, self._dynprm = data.ctrl, model.actuator_dynprm
         self._warnings = data.warning.number
         here = model._address, data._address
-        self._advance = bound(advance, *here, then=(1,))
-        self._refresh = bound(refresh, *here)
-        self._read = bound(
+        self._steps = np.zeros(1, np.int32)
+        steps = bound(advance, *here, self._steps)
+        up_to_date = bound(refresh, *here)
+        read = bound(
             read_state,
             self._where,
             data.qpos,
@@ -113,6 +116,11 @@ class Plant:
             self._activation,
             self.state.array,
         )
+        self._observe = joined(up_to_date, read)
+        plates = (self._plates.place,) if self._plates.any else ()
+        # The kinematics lag the step, and plates are placed by them.
+        self._pass = joined(*plates, steps, up_to_date)
+        self._pass_and_observe = joined(*plates, steps, up_to_date, read)
         self._read_wrenches = {
             contact.name: bound(
                 read_wrench,
@@ -138,12 +146,12 @@ class Plant:
                 self.data.ctrl[servo] = angle
                 self.data.act[self.model.actuator_actadr[servo]] = angle
         mujoco.mj_forward(self.model, self.data)
+        self._steps_taken = 0
         self.observe(0.0)
 
     def observe(self, t_s: float) -> State:
-        """The true state now; kinematics are refreshed so that the tip does not lag a step."""
-        self._refresh()
-        self._read()
+        """Read the true state of this moment, which is called ``t_s``."""
+        self._observe()
         self.state.t_s = t_s
         return self.state
 
@@ -170,7 +178,7 @@ class Plant:
         return np.concatenate([record.f_W, record.t_W])
 
     def observe_contacts(self, t_s: float) -> None:
-        """Read the wrench on each contact; ``observe`` has refreshed the kinematics."""
+        """Read the wrench on each contact; the kinematics are up to date."""
         for read, time in zip(self._read_wrenches.values(), self._contact_times, strict=True):
             read()
             time[0] = t_s
@@ -180,30 +188,29 @@ class Plant:
         if command is not self._taken:
             self._taken = command
             self._bind(command)
-        for write in self._writes:
-            write()
+        self._write()
 
     def _bind(self, command: Command) -> None:
         """Look up once how this command is written into MuJoCo's controls."""
         views = command.views
-        self._writes = [
-            bound(
-                set_controls,
-                self._where,
-                views["rotor_thrust"],
-                views["joint_angle"],
-                self._activation,
-                self._time_up,
-                self._time_down,
-                self._max_turn,
-                self._ctrl,
-                self._dynprm,
-            )
-        ]
+        rotors_and_servos = bound(
+            set_controls,
+            self._where,
+            views["rotor_thrust"],
+            views["joint_angle"],
+            self._activation,
+            self._time_up,
+            self._time_down,
+            self._max_turn,
+            self._ctrl,
+            self._dynprm,
+        )
         if self._where.drives.size:
             angles = (self.data.qpos, self._ctrl)
-            drives = (views["drive_speed"], *self._drive_limits, *angles)
-            self._writes.append(bound(move_drives, self._where, *drives))
+            speeds = (views["drive_speed"], *self._drive_limits, *angles)
+            self._write = joined(rotors_and_servos, bound(move_drives, self._where, *speeds))
+        else:
+            self._write = joined(rotors_and_servos)
 
     def disturb(self, t_s: float) -> None:
         """Set the disturbances of this moment."""
@@ -236,18 +243,19 @@ class Plant:
             )
 
     def step(self, steps: int) -> None:
-        """Let time pass; plates are placed at the control rate or more often."""
-        if not self._plates.any:
-            self._advance(steps)
-            return
-        done = 0
-        while done < steps:
-            if done:
-                self._refresh()  # as ``observe`` left them at first
-            self._plates.follow()
-            stretch = min(self._steps_per_placing, steps - done)
-            self._advance(stretch)
-            done += stretch
+        """Let time pass and read the state; plates are placed at the control rate or more often.
+
+        The kinematics are brought up to date, so that the tip does not lag a step.
+        """
+        rest = steps
+        while self._plates.any and rest > self._steps_per_placing:
+            self._steps[0] = self._steps_per_placing
+            self._pass()
+            rest -= self._steps_per_placing
+        self._steps[0] = rest
+        self._pass_and_observe()
+        self._steps_taken += steps
+        self.state.t_s = self._steps_taken / self._physics_hz
 
     @property
     def diverged(self) -> str:

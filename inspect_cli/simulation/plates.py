@@ -19,7 +19,7 @@ back from behind touches nothing.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 
 import mujoco
 import numpy as np
@@ -94,8 +94,10 @@ class Plates:
         self._engaged = np.zeros(len(plated), np.bool_)
         self.any = bool(plated)
         """Whether there is anything to place."""
+        self.place: Callable[[], object] = lambda: None
+        """Places every plate below its geom, whose kinematics are up to date."""
         if self.any:
-            self._place = bound(
+            self.place = bound(
                 place_plates,
                 solids,
                 np.array([i for i, _ in plated], dtype=np.int32),
@@ -111,8 +113,3 @@ class Plates:
     def reset(self) -> None:
         """Park all plates until a tip is in front of them again."""
         self._engaged[:] = False
-
-    def follow(self) -> None:
-        """Place every plate below its geom, whose kinematics are up to date."""
-        if self.any:
-            self._place()

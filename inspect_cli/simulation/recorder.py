@@ -41,7 +41,7 @@ class Recorder:
         if disturbance is not None:
             self._computed += (disturbance,)
         continuous = (state, *contacts, *self._computed, *inertial)
-        self._taps = [log.tap(record) for record in continuous]
+        self._copy_rows = log.tap(continuous)
         self._times = [record.views["t_s"] for record in self._computed]
         self._poses = {
             "/pose/estimate": (stack.estimate.p_WB, stack.estimate.q_WB),
@@ -58,8 +58,7 @@ class Recorder:
         begun = perf_counter()
         for time in self._times:
             time[0] = t_s
-        for row, queue in self._taps:
-            queue(row())
+        self._copy_rows()
         if t_s >= self._next_pose_s:
             self._next_pose_s += POSE_S
             for topic, (p, q) in self._poses.items():

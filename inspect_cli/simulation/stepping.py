@@ -22,6 +22,7 @@ import numba
 
 from inspect_cli.compiled import kernel
 from inspect_cli.errors import EnvironmentFault
+from inspect_cli.spatial.arrays import Indices
 
 _NUMBA: Any = numba  # much of it has no annotations
 
@@ -58,9 +59,9 @@ mj_kinematics = _function("mj_kinematics")
 
 
 @kernel
-def advance(model: int, data: int, steps: int) -> None:
-    """Let ``steps`` steps of physics pass with what is applied now."""
-    for _ in range(steps):
+def advance(model: int, data: int, steps: Indices) -> None:
+    """Let ``steps[0]`` steps of physics pass with what is applied now."""
+    for _ in range(steps[0]):
         mj_step(model, data)
 
 

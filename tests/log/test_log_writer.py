@@ -32,7 +32,8 @@ from mcap.stream_reader import StreamReader
 from mcap_protobuf.decoder import DecoderFactory
 
 from inspect_cli.errors import EnvironmentFault
-from inspect_cli.log.layout import FieldInfo, descriptor_set, nanoseconds, record_layout
+from inspect_cli.log.layout import FieldInfo, descriptor_set, record_layout, rows_dtype
+from inspect_cli.log.queues import RowQueue
 from inspect_cli.log.reader import read_log
 from inspect_cli.log.writer import LogWriter
 from inspect_cli.records import Estimate, Probe, State, scalar, vector
@@ -327,23 +328,28 @@ def test_any_layout_is_what_protobuf_reads(shapes, n, seed):
         FieldInfo(f"x{k}", () if length is None else (length,), "", "", "")
         for k, length in enumerate(shapes)
     ]
+    fields.insert(0, FieldInfo("t_s", (), "s", "", ""))
     layout = record_layout(9, fields)
-    messages = layout.messages(nanoseconds(np.arange(n) * 0.01), 3)
+    queue = RowQueue(9, layout, rows_dtype(fields))
     rng = np.random.default_rng(seed)
-    for field in fields:
-        messages[field.name] = rng.integers(0, 2**63, (n, *field.shape)).view("<f8")
-    raw = messages.view(np.uint8).reshape(n, -1)
+    rows = np.zeros(n, rows_dtype(fields))
+    for field in fields[1:]:
+        rows[field.name] = rng.integers(0, 2**63, (n, *field.shape)).view("<f8")
+    rows["t_s"] = np.arange(n) * 0.01
+    for row in np.split(rows, n):
+        queue.append(row)
+    raw = np.frombuffer(bytes(queue.drain().data), np.uint8).reshape(n, -1)
     assert layout.matches(raw)
     schema = Schema("inspect.Any", descriptor_set("inspect.Any", fields))
     decode = DecoderFactory().decoder_for("protobuf", schema)
     for k, row in enumerate(raw):
         opcode, length, channel, sequence, time, published = struct.unpack_from("<BQHIQQ", row)
         assert (opcode, length, channel) == (5, row.size - 9, 9)
-        assert (sequence, time, published) == (3 + k, k * 10**7, k * 10**7)
+        assert (sequence, time, published) == (k, k * 10**7, k * 10**7)
         decoded = decode(row[31:].tobytes())
         for field in fields:
             value = getattr(decoded, field.name)
-            assert np.float64(value).tobytes() == messages[field.name][k].tobytes()
+            assert np.float64(value).tobytes() == rows[field.name][k].tobytes()
 
 
 class Schema:

@@ -10,10 +10,12 @@ The angles of an arm pass from the reference to its servos, which are believed t
 
 from __future__ import annotations
 
+from collections.abc import Callable, Sequence
 from typing import Protocol
 
 import numpy as np
 
+from inspect_cli.compiled import Bound
 from inspect_cli.control.impedance import ImpedanceController, RigidBody
 from inspect_cli.estimation.error_state import ErrorStateFilter
 from inspect_cli.estimation.wrench_observer import WrenchObserver
@@ -27,8 +29,8 @@ from inspect_cli.spatial.arrays import Vector
 class Allocation(Protocol):
     """Turns the command's wrench into actuator set-points."""
 
-    def update(self, weight_B: Vector, command: Command) -> None:
-        """Write thrusts, tilts, the granted wrench and whether it saturated."""
+    def bind(self, weight_B: Vector, command: Command) -> Callable[[], object]:
+        """The call that writes thrusts, tilts, the granted wrench and whether it saturated."""
         ...
 
 
@@ -60,34 +62,47 @@ class ImpedanceControl:
         self._arm_angle = angles[len(angles) - n_arm :]
         _, R_BT = capabilities.frame_pose(at_origin(self._arm_angle), TOOL)
         self._impedance = ImpedanceController(body, control, R_BT, rates.control_hz)
-        self._allocation = allocation
         self._flying = False
+        self._pose: Pose | None = None
+        self._laws = (
+            self._observer.bind(self.estimate, self.command.allocated_B),
+            allocation.bind(self._impedance.weight_B, self.command),
+        )
 
     def start(self, pose: Pose) -> None:
         """Begin at rest at a measured pose."""
         self._filter.start(pose, self.estimate)
 
-    def propagate(self, imu: Imu) -> None:
-        """Propagate the estimate with an inertial sample."""
-        self._filter.propagate(imu, self.estimate)
+    def propagation(self, imu: Imu) -> Bound:
+        """The propagation of the estimate with an inertial sample."""
+        return self._filter.bind_propagation(imu, self.estimate)
 
     def correct(self, pose: Pose) -> bool:
         """Correct the estimate with a pose measurement; False when it was refused."""
-        return self._filter.correct(pose, self.estimate)
+        if pose is not self._pose:
+            self._pose, self._correct = pose, self._filter.bind_correction(pose, self.estimate)
+        return self._correct()
 
-    def update(self, reference: Reference, armed: bool) -> None:
-        """Write the command; idle motors, and an observer at rest, when not ``armed``."""
+    def bind(self, reference: Reference) -> Sequence[Callable[[], object]]:
+        """The calls that turn a reference into the command, after ``prepare``."""
+        observe, allocate = self._laws
+        return observe, self._impedance.bind(self.estimate, reference, self.command), allocate
+
+    def prepare(self, reference: Reference, armed: bool) -> bool:
+        """Follow arm and profile of the reference; whether there is anything to control.
+
+        Motors idle, and the observer rests, when not ``armed``.
+        """
         if self._arm_angle.size:
             self._move_arm(reference.arm_angle)
         if not armed:
             self._idle()
-            return
+            return False
         if not self._flying:
             self._observer.reset(self.estimate)
             self._flying = True
-        self._observer.update(self.estimate, self.command.allocated_B)
-        self._impedance.update(self.estimate, reference, self.command)
-        self._allocation.update(self._impedance.weight_B, self.command)
+        self._impedance.follow(int(reference.views["impedance"][0]))
+        return True
 
     def _move_arm(self, arm_angle: Vector) -> None:
         """Command the arm, and turn the impedance with the tool."""

@@ -10,6 +10,8 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
+from inspect_cli.compiled import Bound
+from inspect_cli.compiled.joined import joined
 from inspect_cli.guidance.local_surface import LocalSurface
 from inspect_cli.guidance.pursuit import Pursuit
 from inspect_cli.interfaces import TOOL, Capabilities, Posture
@@ -40,6 +42,7 @@ class FullyActuatedStack:
         self.loops: Mapping[str, int] = {"guidance": platform.rates.guidance_hz}
         self.surface = SurfaceEstimate.create()
         self._controller = controller
+        self._control = joined(self.guidance.evaluate, *controller.bind(self.reference))
         self._capabilities = capabilities
         camera = platform.sensor(DepthCameraModel)
         self._mounting = Mounting(camera.mount)
@@ -49,11 +52,12 @@ class FullyActuatedStack:
         """Begin at rest at a measured pose."""
         self._controller.start(pose)
 
+    def propagation(self, imu: Imu) -> Bound:
+        """The propagation of the estimate by the samples of an inertial unit."""
+        return self._controller.propagation(imu)
+
     def hear(self, sample: Record | DepthImage) -> Record | None:
-        """Propagate or correct the estimate, or see the surface; the rest passes."""
-        if isinstance(sample, Imu):
-            self._controller.propagate(sample)
-            return sample
+        """Correct the estimate, or see the surface; the rest passes."""
         if isinstance(sample, Pose):
             return sample if self._controller.correct(sample) else None
         if isinstance(sample, DepthImage):
@@ -73,8 +77,11 @@ class FullyActuatedStack:
 
     def control(self, t_s: float) -> None:
         """Write the reference of the instant and the command that follows it."""
-        self.guidance.write(t_s)
-        self._controller.update(self.reference, self.armed)
+        self.guidance.prepare(t_s)
+        if self._controller.prepare(self.reference, self.armed):
+            self._control()
+        else:
+            self.guidance.evaluate()
 
     def believed(self, frame: str) -> tuple[Vector, Matrix]:
         """(p, R) in W of ``tool``, or of the depth camera by any other name.

@@ -26,17 +26,25 @@ def kernel(function: F) -> F:
     return cast(F, numba.njit(cache=True, error_model="numpy")(function))
 
 
-def bound(
-    function: Callable[..., Any], *arguments: object, then: tuple[Number, ...] = ()
-) -> Callable[..., Any]:
+class Bound(partial[Any]):
+    """A kernel with arguments that it keeps."""
+
+    overload: Any = None
+    """What Numba compiled for the types of the arguments; None where nothing is compiled."""
+
+
+def bound(function: Callable[..., Any], *arguments: object, then: tuple[Number, ...] = ()) -> Bound:
     """A kernel with its first arguments fixed; ``then`` are examples of those that a call adds.
 
     An ordinary call looks up the type of every argument, which costs 0.4 µs for a structured
     array: more than most kernels compute. Here the types are resolved once, so the arguments are
     what lives as long as the caller and is changed in place: arrays, and numbers that stay.
-    A call converts what it adds to the types of the examples.
+    A call converts what it adds to the types of the examples. Kernels that always follow each
+    other become one call by ``compiled.joined``.
     """
-    if isinstance(function, _NUMBA.core.dispatcher.Dispatcher):
-        types = tuple(_NUMBA.typeof(value) for value in (*arguments, *then))
-        function = function.compile(types)
-    return partial(function, *arguments)
+    if not isinstance(function, _NUMBA.core.dispatcher.Dispatcher):
+        return Bound(function, *arguments)
+    signature = tuple(_NUMBA.typeof(value) for value in (*arguments, *then))
+    call = Bound(function.compile(signature), *arguments)
+    call.overload = function.overloads[signature]
+    return call
