@@ -12,11 +12,12 @@ from inspect_cli.schema.plan import Target
 from inspect_cli.spatial.arrays import Matrix, Vector
 from inspect_cli.spatial.rotations import quaternion_to_matrix
 
-MAX_TILT_RAD = float(np.radians(30.0))
+MIN_COSINE = float(np.cos(np.radians(30.0)))
 MAX_SHIFT_M = 0.30
-"""A plane turned or shifted by more than these from the believed one is taken for another thing."""
-MAX_FIRST_TILT_RAD = float(np.radians(60.0))
-"""A surface that nobody described may be turned by this much when it is first seen."""
+"""A plane turned (30°) or shifted by more than these from the believed one is taken for another
+thing."""
+MIN_FIRST_COSINE = float(np.cos(np.radians(60.0)))
+"""A surface that nobody described may be turned by 60° when it is first seen."""
 ARRIVAL_M = 0.005
 ARRIVAL_RAD = float(np.radians(2.0))
 """Corrections smaller than these do not put off the arrival."""
@@ -55,14 +56,26 @@ class ContactFrame:
 
         A surface that was not found yet is found where the tool's axis meets it.
         """
+        if self.contradicts(estimate):
+            return None
         n_W = estimate.n_W.copy()
         if not self.found:
-            return self._first(n_W, estimate.p_WC.copy())
-        shift = float(n_W @ (estimate.p_WC - self.p_WC))
-        # Written so that a NaN anywhere makes it implausible.
-        if not (n_W @ self.n_W >= np.cos(MAX_TILT_RAD) and abs(shift) <= MAX_SHIFT_M):
-            return None
-        return self.at(self.p_WC + shift * n_W, n_W)
+            level, p_WC = _is_level(n_W), estimate.p_WC.copy()
+            return ContactFrame(p_WC, n_W, _orientation(n_W, self.R_WT[:, 1], level), level)
+        return self.at(self.p_WC + self._shift(estimate) * n_W, n_W)
+
+    def contradicts(self, estimate: SurfaceEstimate) -> bool:
+        """Whether a plane is turned or shifted too far to be this surface, or not a number."""
+        n_W = estimate.views["n_W"]
+        if not self.found:
+            return not float(n_W @ self.n_W) >= MIN_FIRST_COSINE
+        if not float(n_W @ self.n_W) >= MIN_COSINE:
+            return True
+        return not abs(self._shift(estimate)) <= MAX_SHIFT_M
+
+    def _shift(self, estimate: SurfaceEstimate) -> float:
+        """How far the contact point moves along n̂ onto the seen plane, m."""
+        return float(estimate.views["n_W"] @ (estimate.views["p_WC"] - self.p_WC))
 
     def at(self, p_WC: Vector, n_W: Vector) -> ContactFrame:
         """The frame at another point and normal, with the tool turned by the same rule."""
@@ -78,15 +91,9 @@ class ContactFrame:
         way = np.linalg.norm(self.set_point(depth_m) - other.set_point(depth_m))
         return bool(way > ARRIVAL_M or self.n_W @ other.n_W < np.cos(ARRIVAL_RAD))
 
-    def _first(self, n_W: Vector, p_WC: Vector) -> ContactFrame | None:
-        if not n_W @ self.n_W >= np.cos(MAX_FIRST_TILT_RAD):
-            return None
-        level = _is_level(n_W)
-        return ContactFrame(p_WC, n_W, _orientation(n_W, self.R_WT[:, 1], level), level)
-
 
 def _is_level(n_W: Vector) -> bool:
-    return bool(abs(n_W[2]) <= np.cos(MAX_TILT_RAD))
+    return bool(abs(n_W[2]) <= MIN_COSINE)
 
 
 def _orientation(n_W: Vector, hint_W: Vector, level: bool) -> Matrix:

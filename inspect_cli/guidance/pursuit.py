@@ -80,6 +80,7 @@ class Pursuit:
         self._surfaces = surfaces
         self._trajectory = Trajectory.resting(0.0, posture)
         self._approach: Approach | None = None
+        self._planned_for: Target | None = None
         self._arrival_s = 0.0
         self._arm_angle = self.reference.arm_angle
         self._has_arm = bool(self._arm_angle.size)
@@ -209,10 +210,10 @@ class Pursuit:
         """Whether an estimate is turned or shifted too far to be the target's surface."""
         approach = self._approach
         if approach is not None and approach.sliding and approach.target == target:
-            return self._believed(target, self._trajectory.motion(t_s)).seen(surface) is None
+            return self._believed(target, self._trajectory.motion(t_s)).contradicts(surface)
         if target.following is not None:
-            return self._believed(target, None).seen(surface) is None
-        return ContactFrame.planned(target).seen(surface) is None
+            return self._believed(target, None).contradicts(surface)
+        return self._planned(target).contradicts(surface)
 
     def hold(self, t_s: float) -> None:
         """Brake within the limits and stay there."""
@@ -246,11 +247,17 @@ class Pursuit:
         self._trajectory = trajectory
         self._arrival_s = trajectory.end_s
 
+    def _planned(self, target: Target) -> ContactFrame:
+        """The contact frame of a target as planned; the last one is kept."""
+        if self._planned_for is not target:
+            self._planned_for, self._plan_frame = target, ContactFrame.planned(target)
+        return self._plan_frame
+
     def _believed(self, target: Target, now: Motion | None) -> ContactFrame:
         """The contact frame of a target as believed; once the tool slides, the one where it is."""
         approach = self._approach
         if approach is None or approach.target != target:
-            return ContactFrame.planned(target)
+            return self._planned(target)
         if not approach.sliding or now is None:
             return approach.frame
         p_WT, R_WT = self._tool(now)
@@ -261,9 +268,7 @@ class Pursuit:
 
         Against the plan, so that a chain of plausible steps cannot walk off it.
         """
-        return (
-            approach.frame if approach.target.following else ContactFrame.planned(approach.target)
-        )
+        return approach.frame if approach.target.following else self._planned(approach.target)
 
     def _along_stroke(self, t_s: float, approach: Approach, limits: MotionLimits) -> list[Stretch]:
         """The set-points of the target's stroke, on the surface as it was last corrected."""
@@ -271,7 +276,7 @@ class Pursuit:
         if stroke is None or target.surface is None:
             raise ValueError(f"{target.label} has no line to slide along")
         prim = self._surfaces[target.surface]
-        aim_at = corrected(prim, ContactFrame.planned(target), approach.frame)
+        aim_at = corrected(prim, self._planned(target), approach.frame)
 
         def posture_at(u: float, v: float) -> Posture:
             posture = self._posture_for(target, aim_at(u, v), approach.depth_m)

@@ -103,7 +103,7 @@ class RowQueue:
         self._append()
 
     def drain(self) -> Block:
-        """Everything that waits, in memory that the next row overwrites; nothing waits afterwards."""
+        """Everything that waits, in memory that the next rows overwrite."""
         waiting, n = self._waiting, self.waiting
         waiting.count[0] = 0
         waiting.count[1] += n

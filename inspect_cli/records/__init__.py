@@ -19,7 +19,7 @@ Frames: see ``inspect_cli.spatial``.
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TypeAlias
+from typing import Protocol, TypeAlias
 
 from inspect_cli.records.half_cell import Probe, Reading
 from inspect_cli.records.reading import InvalidReason, PointReading
@@ -33,7 +33,7 @@ from inspect_cli.records.record import (
     scalar,
     vector,
 )
-from inspect_cli.spatial.arrays import Points
+from inspect_cli.spatial.arrays import Points, Vector
 
 __all__ = [
     "CORE_RECORDS",
@@ -211,14 +211,37 @@ class Command(Record):
     saturated = scalar("1", "1 if the allocation had to scale the wrench down, else 0")
 
 
+class Pixels(Protocol):
+    """What a depth camera holds of its last image, in its frame D; m."""
+
+    def all(self) -> Points:
+        """Points (rows, columns, 3); NaN for pixels without a return."""
+        ...
+
+    def near(self, p_D: Vector, axis_D: Vector, radius_m: float) -> Points:
+        """Points (n, 3) of the pixels that may lie within ``radius_m`` of a line, row by row.
+
+        The line goes through ``p_D`` (3,) along the unit vector ``axis_D`` (3,). All points that
+        do lie so near are among them.
+        """
+        ...
+
+
 @dataclass(frozen=True)
 class DepthImage:
-    """One image of a depth camera. It is not logged as a row: see ``SurfaceEstimate``."""
+    """One image of a depth camera. It is not logged as a row: see ``SurfaceEstimate``.
+
+    The camera writes its next image into the same memory.
+    """
 
     t_s: float
-    image: Points
-    """The measured points (rows, columns, 3), m, in the camera's frame D; NaN for pixels without a
-    return. The camera writes its next image into the same memory."""
+    pixels: Pixels
+
+    @property
+    def image(self) -> Points:
+        """The measured points (rows, columns, 3), m, in the camera's frame D; NaN for pixels
+        without a return."""
+        return self.pixels.all()
 
     @property
     def points_D(self) -> Points:

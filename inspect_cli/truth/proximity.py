@@ -112,14 +112,14 @@ def near_reliefs(
 ) -> None:
     """Write the reliefs' distances from each hub into ``near``; see ``set_thrust_factors``."""
     directions = np.empty((2, 3))
-    ranges = np.empty(2)
+    ranges, reach = np.empty(2), np.array([REACH_M, REACH_M])
     for i in range(hubs.shape[0]):
         hub_W = site_xpos[hubs[i]]
         for k in range(3):
             directions[0, k] = site_xmat[hubs[i], 3 * k + 2]
             directions[1, k] = -directions[0, k]
         ranges[:] = np.nan
-        cast_on_reliefs(reliefs, nodes, hub_W, directions, REACH_M, ranges)
+        cast_on_reliefs(reliefs, nodes, hub_W, directions, reach, ranges)
         near[i, 0] = ranges[0]
         near[i, 1] = ranges[1]
         near[i, 2] = np.inf

@@ -17,12 +17,12 @@ def cast_on_reliefs(
     nodes: Matrix,
     origin_W: Vector,
     directions_W: Points,
-    max_range: float,
+    farthest: Vector,
     ranges: Vector,
 ) -> None:
     """Shorten ``ranges`` (n,) to the hits of rays from ``origin_W`` on reliefs, from both sides.
 
-    A NaN is a ray that has met nothing so far; nothing is looked for beyond ``max_range``.
+    A NaN is a ray that has met nothing so far; nothing is looked for beyond ``farthest`` (n,).
     """
     for i in range(reliefs.shape[0]):
         R = reliefs["R_WS"][i]
@@ -39,7 +39,7 @@ def cast_on_reliefs(
                     + R[1, m] * directions_W[k, 1]
                     + R[2, m] * directions_W[k, 2]
                 )
-            known = max_range if np.isnan(ranges[k]) else ranges[k]
+            known = farthest[k] if not ranges[k] < farthest[k] else ranges[k]
             t = _ray_on_relief(reliefs, nodes, i, o, d, known)
             if t <= known:
                 ranges[k] = t
@@ -101,6 +101,25 @@ def _ray_on_relief(
         if t > end:
             return np.inf
     return np.inf
+
+
+@kernel
+def box_distance(reliefs: Structured, i: int, p_W: Vector) -> float:
+    """Distance, m, of a point from the box around relief ``i``; zero within it."""
+    R, p = reliefs["R_WS"][i], reliefs["p_WS"][i]
+    square = 0.0
+    for m in range(3):
+        x = 0.0
+        for n in range(3):
+            x += R[n, m] * (p_W[n] - p[n])
+        if m == 2:
+            low, high = reliefs["low"][i], reliefs["high"][i]
+        else:
+            high = reliefs["half_size"][i, m]
+            low = -high
+        off = max(low - x, x - high, 0.0)
+        square += off * off
+    return float(np.sqrt(square))
 
 
 @kernel

@@ -54,16 +54,18 @@ def joined_reliefs(parts: Sequence[tuple[Structured, Matrix]]) -> tuple[Structur
 
 
 def cast(
-    solids: Solids, origin_W: Vector, directions_W: Points, max_range: float, ranges: Vector
+    solids: Solids, origin_W: Vector, directions_W: Points, farthest: Vector, ranges: Vector
 ) -> None:
     """Write into ``ranges`` (n,) the distance, m, to the first surface that each ray meets.
 
-    ``directions_W`` (n, 3) are unit vectors in W from ``origin_W``. NaN where nothing is met
-    within ``max_range``.
+    ``directions_W`` (n, 3) are unit vectors in W from ``origin_W``. A ray is followed as far as
+    its ``farthest`` (n,): NaN, or any larger range, where it meets nothing before.
     """
-    raycast(solids.primitives, origin_W, directions_W, max_range, ranges)
+    if not ranges.size:
+        return
+    raycast(solids.primitives, origin_W, directions_W, farthest.max(), ranges)
     if len(solids.reliefs):
-        cast_on_reliefs(solids.reliefs, solids.nodes, origin_W, directions_W, max_range, ranges)
+        cast_on_reliefs(solids.reliefs, solids.nodes, origin_W, directions_W, farthest, ranges)
 
 
 @kernel

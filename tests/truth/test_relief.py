@@ -115,7 +115,7 @@ def test_rays_meet_what_a_dense_search_meets(wavy: MeshRelief) -> None:
     origin = np.array([0.1, -0.2, 2.4])
     rays = directions(rng, 400)
     ranges = np.empty(len(rays))
-    cast(solids, origin, rays, 3.0, ranges)
+    cast(solids, origin, rays, np.full(len(rays), 3.0), ranges)
     hits = 0
     for ray, found in zip(rays, ranges, strict=True):
         t = np.arange(0.0, 3.0, 0.002)
@@ -153,7 +153,7 @@ def test_rays_in_the_vault_meet_what_open3d_meets(
     rows = np.hstack([np.tile(origin, (len(rays), 1)), rays]).astype(np.float32)
     expected = scene.cast_rays(module.core.Tensor(rows))["t_hit"].numpy().astype(float)
     found = np.empty(len(rays))
-    cast(solids_of(vault), np.array(origin), rays, 10.0, found)
+    cast(solids_of(vault), np.array(origin), rays, np.full(len(rays), 10.0), found)
     # Up to a pitch is lost along the rim.
     ends = origin + expected[:, None] * rays
     inner = np.isfinite(expected) & (abs(ends[:, 1]) < 1.47) & (ends[:, 2] > 2.7)
@@ -172,10 +172,10 @@ def test_a_plain_mesh_is_a_plane_for_rays_from_both_sides() -> None:
         rays = np.array([[0.3, 0.1, toward], [0.0, 0.0, toward], [0.9, 0.0, 0.1 * toward]])
         rays /= np.linalg.norm(rays, axis=1, keepdims=True)
         found = np.empty(3)
-        cast(solids, np.array([0.0, 0.0, z]), rays, 9.0, found)
+        cast(solids, np.array([0.0, 0.0, z]), rays, np.full(len(rays), 9.0), found)
         np.testing.assert_allclose(found[:2], abs(z - 1.0) / abs(rays[:2, 2]), atol=1e-6)
         assert np.isnan(found[2])  # passes beside
-        cast(solids, np.array([0.0, 0.0, z]), rays, 0.9, found)
+        cast(solids, np.array([0.0, 0.0, z]), rays, np.full(len(rays), 0.9), found)
         assert np.isnan(found).all()
 
 
@@ -190,7 +190,7 @@ def test_a_hole_lets_rays_through_and_is_no_surface() -> None:
     found = np.empty(2)
     down = np.array([[0.0, 0.0, -1.0], [0.2, 0.0, -1.0]])
     down /= np.linalg.norm(down, axis=1, keepdims=True)
-    cast(solids, np.array([0.0, 0.0, 3.0]), down, 9.0, found)
+    cast(solids, np.array([0.0, 0.0, 3.0]), down, np.full(len(down), 9.0), found)
     assert np.isnan(found[0])
     assert np.isfinite(found[1])
     *_, w, on = foot_on(solids, 0, np.array([0.0, 0.0, 2.0]))

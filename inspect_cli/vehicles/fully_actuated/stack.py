@@ -47,6 +47,7 @@ class FullyActuatedStack:
         camera = platform.sensor(DepthCameraModel)
         self._mounting = Mounting(camera.mount)
         self._local_surface = LocalSurface(camera)
+        self._neighbourhood_m = camera.neighbourhood_m
 
     def start(self, pose: Pose) -> None:
         """Begin at rest at a measured pose."""
@@ -98,8 +99,10 @@ class FullyActuatedStack:
     def _see(self, image: DepthImage) -> SurfaceEstimate:
         """The surface that a depth image shows; one record, overwritten with each image."""
         p_WT, R_WT = self.believed("tool")
-        estimate, points_D = self.estimate, image.points_D
+        estimate = self.estimate
         p_WD, R_WD = self._mounting.pose(estimate.p_WB, estimate.q_WB, p_WT, R_WT)
+        tip_D, axis_D = R_WD.T @ (p_WT - p_WD), R_WD.T @ R_WT[:, 2]
+        points_D = image.pixels.near(tip_D, axis_D, self._neighbourhood_m)
         along_T = points_D if R_WD is R_WT else points_D @ (R_WT.T @ R_WD).T
         self._local_surface.update(along_T, p_WD, p_WT, R_WT, self.surface)
         self.surface.t_s = image.t_s
