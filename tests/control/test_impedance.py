@@ -94,7 +94,8 @@ class Loop:
         self.controller = ImpedanceController(body, only, R_BT, 250)
 
     def wrench(self) -> Array:
-        self.controller.update(self.estimate, self.reference, self.command)
+        self.controller.follow(int(self.reference.impedance))
+        self.controller.bind(self.estimate, self.reference, self.command)()
         return np.array(self.command.wrench_B)
 
 

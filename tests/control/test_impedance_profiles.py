@@ -61,7 +61,8 @@ class Law:
 
     def wrench(self, profile: int) -> np.ndarray:
         self.reference.impedance = float(profile)
-        self.controller.update(self.estimate, self.reference, self.command)
+        self.controller.follow(int(self.reference.impedance))
+        self.controller.bind(self.estimate, self.reference, self.command)()
         return np.array(self.command.wrench_B)
 
     def turn(self, pitch_deg: float) -> None:

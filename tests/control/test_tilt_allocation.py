@@ -41,7 +41,7 @@ class Bench:
         """Allocate; return the granted wrench."""
         self.command.wrench_B[:] = wrench_B
         weight = np.zeros(3) if weight_B is None else weight_B
-        self.allocation.update(weight, self.command)
+        self.allocation.bind(weight, self.command)()
         return np.array(self.command.allocated_B)
 
     def produced(self, q_WB: Array) -> Array:

@@ -103,6 +103,8 @@ class Run:
         self.filter = ErrorStateFilter(imu, pose, IMU_HZ, POSE_HZ)
         self.estimate = Estimate.create()
         self._imu, self._pose = Imu.create(), Pose.create()
+        self.propagate = self.filter.bind_propagation(self._imu, self.estimate)
+        self.correct = self.filter.bind_correction(self._pose, self.estimate)
 
     def start(self) -> None:
         self.filter.start(set_pose(self._pose, 0.0, self.seen_p[0], self.seen_R[0]), self.estimate)
@@ -113,10 +115,10 @@ class Run:
         if k % 2 == 0:
             self._imu.t_s = t
             self._imu.f_B, self._imu.w_B = self.samples[k, :3], self.samples[k, 3:]
-            self.filter.propagate(self._imu, self.estimate)
+            self.propagate()
         if k % 5 == 0 and k > 0:
-            pose = set_pose(self._pose, t, self.seen_p[k], self.seen_R[k])
-            return self.filter.correct(pose, self.estimate)
+            set_pose(self._pose, t, self.seen_p[k], self.seen_R[k])
+            return self.correct()
         return True
 
     def error(self, k: int) -> Array:
@@ -204,7 +206,7 @@ def test_a_lone_bad_pose_leaves_no_trace(what: str) -> None:
     else:
         pose.q_WB = np.zeros(4)
     with np.errstate(invalid="ignore"):  # only plain Python warns of 0/0
-        assert not spoiled.filter.correct(pose, spoiled.estimate)
+        assert not spoiled.filter.bind_correction(pose, spoiled.estimate)()
     assert spoiled.estimate.array == run.estimate.array
 
 

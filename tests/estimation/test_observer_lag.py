@@ -79,7 +79,7 @@ def test_the_observer_of_the_flight_has_this_lag(gain: float) -> None:
     observed = [0.0]
     for p in momentum[1:]:
         estimate.v_WB_W[0] = p / mass
-        observer.update(estimate, hover)
+        observer.bind(estimate, hover)()
         observed.append(float(estimate.wrench_B[0]))
     # Within a step the observer takes the force as constant: half a step's rise at the most.
     allowed = 0.5 * dt * FORCE_N / RISE_S * gain * dt + 1e-3 * FORCE_N

@@ -59,7 +59,7 @@ def observed(t: Array, motion: tuple[Array, Array, Array], applied_B: Array) -> 
         if k == 0:
             observer.reset(estimate)
         else:
-            observer.update(estimate, applied_B)
+            observer.bind(estimate, applied_B)()
         out[k] = estimate.wrench_B
     return out
 
@@ -116,7 +116,7 @@ def test_hovering_off_centre_is_no_load() -> None:
     estimate.q_WB[0] = 1.0
     observer.reset(estimate)
     for _ in range(500):
-        observer.update(estimate, hover)
+        observer.bind(estimate, hover)()
     assert np.abs(estimate.wrench_B).max() < 1e-9
 
 
@@ -130,7 +130,7 @@ def test_a_push_at_the_tool_has_its_lever_about_the_origin() -> None:
     estimate.q_WB[0] = 1.0
     observer.reset(estimate)
     for _ in range(2000):  # 8 s: the slowest mode has decayed by e⁻⁴⁰
-        observer.update(estimate, hold)
+        observer.bind(estimate, hold)()
     assert estimate.wrench_B == pytest.approx(contact, abs=1e-9)
 
 
@@ -139,7 +139,7 @@ def test_reset_forgets() -> None:
     estimate = Estimate.create()
     estimate.q_WB[0] = 1.0
     observer.reset(estimate)
-    observer.update(estimate, np.full(6, 9.0))
+    observer.bind(estimate, np.full(6, 9.0))()
     assert np.abs(estimate.wrench_B).max() > 0.01
     estimate.v_WB_W = [3.0, -1.0, 2.0]
     estimate.w_WB_B = [0.1, 0.0, 0.2]
@@ -149,5 +149,5 @@ def test_reset_forgets() -> None:
     observer.reset(estimate)
     R = Rotation.from_quat(estimate.q_WB, scalar_first=True)
     hover = R.inv().apply(-WEIGHT_W)
-    observer.update(estimate, np.r_[hover, np.cross(COM, hover)])
+    observer.bind(estimate, np.r_[hover, np.cross(COM, hover)])()
     assert np.abs(estimate.wrench_B).max() < 1e-9

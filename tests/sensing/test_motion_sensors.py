@@ -169,9 +169,9 @@ def test_the_filter_trusts_these_sensors_as_much_as_they_deserve() -> None:
                 belief.start(pose.measurement, estimate)
             if k % 2 == 0:
                 imu.sample(Truth(state))
-                belief.propagate(imu.measurement, estimate)
+                belief.bind_propagation(imu.measurement, estimate)()
             if k % 5 == 0 and k > 0:
-                assert belief.correct(pose.measurement, estimate)
+                assert belief.bind_correction(pose.measurement, estimate)()
         believed = Rotation.from_quat(estimate.q_WB, scalar_first=True)
         turn = believed.inv() * Rotation.from_quat(state.q_WB, scalar_first=True)
         error = np.r_[-estimate.p_WB, -estimate.v_WB_W, turn.as_rotvec()]

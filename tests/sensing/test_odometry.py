@@ -186,10 +186,12 @@ class Shuttle:
                 sample = noise + bias
                 imu.f_B = sample[:3] + np.array([0.64 * np.cos(0.8 * t), 0.0, 9.81])
                 imu.w_B = sample[3:]
-                self.filter.propagate(imu, self.estimate)
+                self.filter.bind_propagation(imu, self.estimate)()
             if k % 25 == 0 and k > 0:
                 self.sensor.sample(Truth(state))
-                self.rejected += not self.filter.correct(self.sensor.measurement, self.estimate)
+                self.rejected += not self.filter.bind_correction(
+                    self.sensor.measurement, self.estimate
+                )()
         self.true_p = state.p_WB.copy()
         self.odometry_p = self.sensor._believed[:3].copy()
 
@@ -221,9 +223,9 @@ def test_the_filter_knows_by_its_gyroscopes_that_the_frame_turns_away() -> None:
         filter_.start(pose, estimate)
         for k in range(26):
             imu.t_s = k / 250.0
-            filter_.propagate(imu, estimate)
+            filter_.bind_propagation(imu, estimate)()
         pose.t_s, pose.p_WB = 0.1, np.nan
-        assert not filter_.correct(pose, estimate)
+        assert not filter_.bind_correction(pose, estimate)()
         variances.append(filter_.covariance[8, 8])
     assert variances[1] - variances[0] == pytest.approx(0.01**2 * 0.5 * 0.1, rel=1e-6)
 

@@ -129,7 +129,7 @@ class Rig:
                     self._where, self.speed, *limits, CONTROL_STEPS * 1e-3, data.qpos, data.ctrl
                 )
                 mujoco.mj_kinematics(self.model, self.data)
-                self._plates.follow()
+                self._plates.place()
             self.data.qfrc_applied[:6] = 0.0
             if held:
                 hold_attitude(self.data, self.q_WB)

@@ -230,12 +230,20 @@ def test_poisoned_truth_changes_nothing_downstream_of_the_sensors(
     """State and contact are NaN but for sensors and log; the log is the same, to the byte."""
     clean = bytes_of(flown(SHORT))
     poison, observe, update = Poison(), Plant.observe, ContactTruth.update
-    control = ImpedanceControl.update
+    control, step, mount = ImpedanceControl.prepare, Plant.step, Mount.__init__
 
     def observe_and_spoil(plant: Plant, t_s: float) -> State:
         state = observe(plant, t_s)
         poison.spoil(state)
         return state
+
+    def step_and_spoil(plant: Plant, steps: int) -> None:
+        step(plant, steps)
+        poison.spoil(plant.state)
+
+    def see_while_sampling(self: Mount, *arguments: object) -> None:
+        mount(self, *arguments)
+        self.sample = poison.antidote(self.sample)
 
     def update_and_spoil(truth: ContactTruth, state: State) -> Record:
         contact = poison.antidote(update)(truth, state)
@@ -244,18 +252,19 @@ def test_poisoned_truth_changes_nothing_downstream_of_the_sensors(
             poison.spoil(contact)
         return contact
 
-    def control_without_truth(*arguments: object) -> None:
+    def control_without_truth(*arguments: object) -> bool:
         # State, and from the first row of the log on TrueContact
         assert len(poison.hidden) == (2 if poison.controls else 1)
         assert all(np.isnan(numbers).all() for numbers, _ in poison.hidden.values())
         poison.controls += 1
-        control(*arguments)
+        return control(*arguments)
 
-    monkeypatch.setattr(Mount, "sample", poison.antidote(Mount.sample))
+    monkeypatch.setattr(Mount, "__init__", see_while_sampling)
     monkeypatch.setattr(Recorder, "rows", poison.antidote(Recorder.rows))
     monkeypatch.setattr(Plant, "observe", observe_and_spoil)
+    monkeypatch.setattr(Plant, "step", step_and_spoil)
     monkeypatch.setattr(ContactTruth, "update", update_and_spoil)
-    monkeypatch.setattr(ImpedanceControl, "update", control_without_truth)
+    monkeypatch.setattr(ImpedanceControl, "prepare", control_without_truth)
     poisoned = SHORT.fly(campaign, "poisoned")
     assert poison.controls > 10_000
     assert bytes_of(poisoned) == clean

@@ -97,7 +97,7 @@ class Slider:
         """One step of physics under a force at O_b."""
         if self._steps % self._every == 0:
             mujoco.mj_kinematics(self.model, self.data)
-            self._plates.follow()
+            self._plates.place()
         self._steps += 1
         self.data.qfrc_applied[:3] = force_W
         hold_attitude(self.data, self.attitude)

@@ -7,6 +7,7 @@ import pytest
 from scipy.spatial.transform import Rotation
 from worlds import CALM, Array, placed, plant_of, structure_of, vehicle_at
 
+from inspect_cli.compiled.joined import joined
 from inspect_cli.records import Pose, Reference, State
 from inspect_cli.schema.geometry import PlaneShape
 from inspect_cli.schema.truth import ProximityEffects
@@ -41,6 +42,7 @@ def press(
     )
     pose.p_WB[:], pose.q_WB[:] = start, [1.0, 0.0, 0.0, 0.0]
     stack.start(pose)
+    control = joined(*stack.bind(reference))
     reference.p_WB[:] = touch + depth_m * z_T - p_BT
     reference.q_WB[0] = 1.0
     reference.impedance = float(vehicle.capabilities.impedances.index("contact_ndt"))
@@ -50,7 +52,8 @@ def press(
         if tick % 5 == 0:
             plant.feel_surroundings()
         tell(stack.estimate.views, state)
-        stack.update(reference, True)
+        assert stack.prepare(reference, True)
+        control()
         plant.apply(stack.command)
         plant.step(CONTROL_STEPS)
         peak = max(peak, state.f_normal)

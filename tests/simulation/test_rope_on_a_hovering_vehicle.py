@@ -9,6 +9,7 @@ import pytest
 from scipy.spatial.transform import Rotation
 from worlds import PLATFORM, Array, placed, plant_of
 
+from inspect_cli.compiled.joined import joined
 from inspect_cli.records import Pose, Reference
 from inspect_cli.schema.disturbances import Pull, Rope
 from inspect_cli.schema.loading import load_platform
@@ -48,13 +49,15 @@ def pull(profile: str, direction: tuple[float, float, float], force_n: float) ->
     for record in (pose, reference):
         record.p_WB[:], record.q_WB[:] = START, [1.0, 0.0, 0.0, 0.0]
     stack.start(pose)
+    control = joined(*stack.bind(reference))
     seen = []
     for tick in range(round((one.end_s + 10.0) / (CONTROL_STEPS * DT))):
         t_s = tick * CONTROL_STEPS * DT
         state = plant.observe(t_s)
         for name in ("p_WB", "q_WB", "v_WB_W", "w_WB_B"):
             stack.estimate.views[name][:] = state.views[name]
-        stack.update(reference, True)
+        assert stack.prepare(reference, True)
+        control()
         plant.disturb(t_s)
         plant.apply(stack.command)
         plant.step(CONTROL_STEPS)

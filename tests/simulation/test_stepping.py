@@ -38,9 +38,10 @@ def test_steps_are_those_of_mujoco_to_the_last_bit() -> None:
     model, expected = thrown()
     mujoco.mj_step(model, expected, 200)
     _, data = thrown()
-    step = bound(advance, model._address, data._address, then=(1,))
-    for steps in (1, 150, 49):
-        step(steps)
+    count = np.zeros(1, np.int32)
+    step = bound(advance, model._address, data._address, count)
+    for count[0] in (1, 150, 49):
+        step()
     assert np.array_equal(data.qpos, expected.qpos)
     assert np.array_equal(data.qvel, expected.qvel)
     assert data.time == expected.time

@@ -79,7 +79,7 @@ class Press:
         tips = []
         for step in range(round(duration_s / DT)):
             if step % PLACING_STEPS == 0:
-                self._plates.follow()
+                self._plates.place()
             self.data.qfrc_applied[:3] = force_W(step * DT)
             hold_attitude(self.data, self.attitude)
             mujoco.mj_step(self.model, self.data)

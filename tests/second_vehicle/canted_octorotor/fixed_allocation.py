@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+from functools import partial
+
 import numpy as np
 
 from canted_octorotor.file_model import CantedRotors, rotor_geometry
@@ -24,7 +27,11 @@ class FixedAllocation:
         """The thrust (8,) that each rotor would need, without limits, N."""
         return self._inverse @ wrench_B
 
-    def update(self, weight_B: Vector, command: Command) -> None:
+    def bind(self, weight_B: Vector, command: Command) -> Callable[[], None]:
+        """The call that turns the command's wrench into thrusts."""
+        return partial(self._allocate, weight_B, command)
+
+    def _allocate(self, weight_B: Vector, command: Command) -> None:
         """Grant weight and torque, then as much of the other forces as the rotors have left."""
         first = np.concatenate([weight_B, command.wrench_B[3:]])
         kept = np.clip(self.thrusts(first), 0.0, self._limit_n)

@@ -9,7 +9,7 @@ force fed forward is what the surface gives back, and a stuck wheel would wind a
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 
 import numpy as np
@@ -72,6 +72,7 @@ class CrawlerStack:
         self.turn_radps = platform.limits.angular_rate_radps
         imu, poses = platform.sensor(ImuModel), platform.pose_source(estimation)
         self._filter = ErrorStateFilter(imu, poses, imu.rate_hz, poses.rate_hz)
+        self._pose: Pose | None = None
         self._platform, self._abilities, self._body = platform, abilities, body
         self._thrusts = np.linalg.pinv(abilities.allocation)
         self._period_s = 1.0 / platform.rates.control_hz
@@ -86,16 +87,21 @@ class CrawlerStack:
         """Begin at rest at a measured pose."""
         self._filter.start(pose, self.estimate)
 
+    def propagation(self, imu: Imu) -> Callable[[], object]:
+        """The propagation of the estimate by the inertial unit's samples."""
+        return self._filter.bind_propagation(imu, self.estimate)
+
     def hear(self, sample: Record | DepthImage) -> Record | None:
-        """Propagate or correct the estimate, or note the hinge's angle; the rest passes."""
+        """Correct the estimate, or note the hinge's angle; the rest passes."""
         if isinstance(sample, DepthImage):
             return None
-        if isinstance(sample, Imu):
-            self._filter.propagate(sample, self.estimate)
-        elif isinstance(sample, Encoders):
+        if isinstance(sample, Encoders):
             self._hinge = sample.angle[:1].copy()
         elif isinstance(sample, Pose):
-            return sample if self._filter.correct(sample, self.estimate) else None
+            if sample is not self._pose:
+                self._pose = sample
+                self._correct = self._filter.bind_correction(sample, self.estimate)
+            return sample if self._correct() else None
         return sample
 
     def enter(self, t_s: float, mode: str, target: int | None) -> None:
