@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -44,14 +44,20 @@ class Failsafe:
 class Watch:
     """Keeps how long each condition has been violated."""
 
-    table: Iterable[Failsafe]
+    table: Sequence[Failsafe]
     _since: dict[str, float] = field(default_factory=dict)
+    _mode: str = ""
+    _rows: Sequence[Failsafe] = ()
 
     def check(self, mode: str, t_s: float, inputs: Any) -> Failsafe | None:
         """The severest row whose patience is over, the first of equals; None if all is well."""
+        if mode != self._mode:
+            self._mode, self._rows = mode, [row for row in self.table if mode in row.modes]
+            watched = {row.name for row in self._rows}
+            self._since = {name: t for name, t in self._since.items() if name in watched}
         worst: Failsafe | None = None
-        for row in self.table:
-            if mode not in row.modes or not row.violated(inputs):
+        for row in self._rows:
+            if not row.violated(inputs):
                 self._since.pop(row.name, None)
                 continue
             since = self._since.setdefault(row.name, t_s)

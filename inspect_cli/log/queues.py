@@ -29,7 +29,7 @@ CAPACITY: Final = 1024
 class Waiting(NamedTuple):
     """Messages of a fixed layout that wait, as kernels fill them.
 
-    ``messages`` (CAPACITY, length) are their bytes, the others parts of the same memory; ``count``
+    ``messages`` (CAPACITY, length) are their bytes, the others parts of the same memory; ``counts``
     (2,) is how many wait and how many were written before them.
     """
 
@@ -37,7 +37,7 @@ class Waiting(NamedTuple):
     sequence: NDArray[np.uint32]
     log_time: Nanoseconds
     publish_time: Nanoseconds
-    count: NDArray[np.int64]
+    counts: NDArray[np.int64]
 
 
 @kernel
@@ -46,7 +46,7 @@ def append_row(row: Bytes, t_s: Vector, spans: NDArray[np.int64], waiting: Waiti
 
     Each of ``spans`` is (from, to, length), in bytes; ``t_s`` (1,) is a view of the row's time.
     """
-    k = waiting.count[0]
+    k = waiting.counts[0]
     message = waiting.messages[k]
     for span in range(spans.shape[0]):
         start, end = spans[span, 0], spans[span, 1]
@@ -55,8 +55,8 @@ def append_row(row: Bytes, t_s: Vector, spans: NDArray[np.int64], waiting: Waiti
     time = np.uint64(np.rint(t_s[0] * 1e9))
     waiting.log_time[k] = time
     waiting.publish_time[k] = time
-    waiting.sequence[k] = waiting.count[1] + k
-    waiting.count[0] = k + 1
+    waiting.sequence[k] = waiting.counts[1] + k
+    waiting.counts[0] = k + 1
 
 
 class RowQueue:
@@ -89,7 +89,7 @@ class RowQueue:
     @property
     def waiting(self) -> int:
         """How many messages wait."""
-        return int(self._waiting.count[0])
+        return int(self._waiting.counts[0])
 
     def bind(self, row: Structured) -> Bound:
         """The call that copies a row (1,) and encodes it; there has to be room for it."""
@@ -105,9 +105,9 @@ class RowQueue:
     def drain(self) -> Block:
         """Everything that waits, in memory that the next rows overwrite."""
         waiting, n = self._waiting, self.waiting
-        waiting.count[0] = 0
-        waiting.count[1] += n
-        data = memoryview(waiting.messages[:n]).cast("B")
+        waiting.counts[0] = 0
+        waiting.counts[1] += n
+        data = waiting.messages[:n].reshape(-1).data
         return Block(self._channel_id, data, waiting.log_time[:n], self._offsets[:n])
 
 

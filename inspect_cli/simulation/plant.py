@@ -85,6 +85,8 @@ class Plant:
         self.disturbances = disturbances
         self._proximity = proximity
         self._hubs = model.actuator_trnid[self._where.rotors, 0].copy()
+        places = self.data.site_xpos, self.data.site_xmat
+        self._hub_places = (*places, self._hubs, self._where.rotors)
         self._gains = model.actuator_gainprm
         self._tip = model.site(TOOL).id
         # The arrays below are views into MuJoCo's memory; they are looked up once.
@@ -234,13 +236,7 @@ class Plant:
     def feel_surroundings(self) -> None:
         """Set the thrust factors of this moment."""
         if self._proximity.any:
-            self._proximity.update(
-                self.data.site_xpos,
-                self.data.site_xmat,
-                self._hubs,
-                self._where.rotors,
-                self._gains,
-            )
+            self._proximity.update(*self._hub_places, self._gains)
 
     def step(self, steps: int) -> None:
         """Let time pass and read the state; plates are placed at the control rate or more often.

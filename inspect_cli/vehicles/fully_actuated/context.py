@@ -60,11 +60,12 @@ class FlightInputs:
     closing_mps: float = 0.0
     """Estimated speed towards the surface that was seen last."""
 
-    _errors: Callable[[], tuple[float, float, float]] = field(init=False, repr=False)
+    _errors: Callable[[], tuple[float, float, float, float]] = field(init=False, repr=False)
 
     def __post_init__(self) -> None:
         """Look up once how the records of estimate and reference are compared."""
-        self._errors = bound(tracking_errors, self.estimate.array, self.reference.array)
+        records = self.estimate.array, self.reference.array
+        self._errors = bound(tracking_errors, *records, self.surface_n_W)
 
     @property
     def stopping_m(self) -> float:
@@ -74,25 +75,32 @@ class FlightInputs:
     def refresh(self, t_s: float) -> None:
         """Bring time and errors up to date."""
         self.t_s = t_s
-        self.position_error_m, self.attitude_error_rad, self.force_n = self._errors()
-        self.closing_mps = max(0.0, -float(self.surface_n_W @ self.estimate.v_WB_W))
+        errors = self._errors()
+        self.position_error_m, self.attitude_error_rad, self.force_n, self.closing_mps = errors
         if t_s - self.surface_seen_s > STALE_S:
             self.surface_distance_m = np.inf
 
 
 @kernel
-def tracking_errors(estimate: Structured, reference: Structured) -> tuple[float, float, float]:
-    """(distance m, angle rad) between an Estimate and a Reference (1,); the external force, N."""
+def tracking_errors(
+    estimate: Structured, reference: Structured, n_W: Vector
+) -> tuple[float, float, float, float]:
+    """(distance m, angle rad, force N, speed m/s) of an Estimate and a Reference (1,).
+
+    Distance and angle are those between the two, the force is the estimated external one, the
+    speed that against the normal ``n_W`` (3,), at least zero.
+    """
     now, ref = estimate[0], reference[0]
-    square, force = 0.0, 0.0
+    square, force, leaving = 0.0, 0.0, 0.0
     for k in range(3):
         square += (now["p_WB"][k] - ref["p_WB"][k]) ** 2
         force += now["wrench_B"][k] ** 2
+        leaving += n_W[k] * now["v_WB_W"][k]
     cosine = 0.0
     for k in range(4):
         cosine += now["q_WB"][k] * ref["q_WB"][k]
     angle = 2.0 * np.arccos(min(abs(cosine), 1.0))
-    return np.sqrt(square), angle, np.sqrt(force)
+    return np.sqrt(square), angle, np.sqrt(force), max(-leaving, 0.0)
 
 
 class ContactContext(Context):
