@@ -178,7 +178,10 @@ def test_tracking_errors_are_distance_and_angle() -> None:
             record.p_WB[:] = rng.normal(size=3)
             record.q_WB[:] = turn.as_quat()[[3, 0, 1, 2]] * rng.choice([-1.0, 1.0])
         estimate.wrench_B[:] = rng.normal(size=6)
-        distance, angle, force = tracking_errors(estimate.array, reference.array)
+        estimate.v_WB_W[:], normal = rng.normal(size=(2, 3))
+        errors = tracking_errors(estimate.array, reference.array, normal)
+        distance, angle, force, closing = errors
+        assert closing == pytest.approx(max(-normal @ estimate.v_WB_W, 0.0))
         assert force == pytest.approx(np.linalg.norm(estimate.wrench_B[:3]))
         assert distance == pytest.approx(np.linalg.norm(estimate.p_WB - reference.p_WB))
         assert angle == pytest.approx((turns[0].inv() * turns[1]).magnitude(), abs=1e-6)
