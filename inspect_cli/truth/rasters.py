@@ -20,7 +20,7 @@ from inspect_cli.schema.primitives import primitive_of
 from inspect_cli.spatial.arrays import Mask, Points, Structured, Vector
 from inspect_cli.spatial.primitives import PLANE, SPHERE, point_at
 from inspect_cli.truth.geometry import StructureTruth
-from inspect_cli.truth.solids import Solids, foot_on
+from inspect_cli.truth.solids import Solids, foot_on, foot_on_patch
 from inspect_cli.truth.specimens.fields import SpecimenField
 
 MOST_CELLS = 25_000
@@ -44,6 +44,18 @@ def feet_on(solids: Solids, i: int, believed: Structured, uv_m: Points, feet: Po
         feet[k, 1] = v if on else np.nan
 
 
+@kernel
+def feet_on_patch(
+    prims: Structured, i: int, believed: Structured, uv_m: Points, feet: Points
+) -> None:
+    """``feet_on`` of a true surface that is the primitive ``i``."""
+    for k in range(uv_m.shape[0]):
+        p_W = point_at(believed, 0, uv_m[k, 0], uv_m[k, 1])
+        u, v, _, on = foot_on_patch(prims, i, p_W)
+        feet[k, 0] = u if on else np.nan
+        feet[k, 1] = v if on else np.nan
+
+
 @dataclass(frozen=True)
 class UnderSurface:
     """The specimen beneath one believed surface."""
@@ -62,7 +74,11 @@ class UnderSurface:
         NaN and not active where the true surface or the specimen does not reach.
         """
         feet = np.empty_like(uv_m)
-        feet_on(self.solids, self.index, self.prim, uv_m, feet)
+        primitives = self.solids.primitives
+        if self.index < len(primitives):  # reliefs take long to compile
+            feet_on_patch(primitives, self.index, self.prim, uv_m, feet)
+        else:
+            feet_on(self.solids, self.index, self.prim, uv_m, feet)
         values = np.full((len(feet), 2), np.nan)
         active = np.zeros(len(feet), np.bool_)
         for k, (u, v) in enumerate(feet.tolist()):

@@ -78,8 +78,14 @@ def foot_on(solids: Solids, i: int, p_W: Vector) -> tuple[float, float, float, b
     if i >= n:
         found = relief_foot(solids.reliefs, solids.nodes, i - n, p_W)
         return found[0], found[1], found[2], found[3]
-    uvw = project(solids.primitives, i, p_W)
-    half_u, half_v = solids.primitives["half_size"][i, 0], solids.primitives["half_size"][i, 1]
+    return foot_on_patch(solids.primitives, i, p_W)
+
+
+@kernel
+def foot_on_patch(prims: Structured, i: int, p_W: Vector) -> tuple[float, float, float, bool]:
+    """The same for the bounded patch of primitive ``i`` alone."""
+    uvw = project(prims, i, p_W)
+    half_u, half_v = prims["half_size"][i, 0], prims["half_size"][i, 1]
     return uvw[0], uvw[1], uvw[2], abs(uvw[0]) <= half_u and abs(uvw[1]) <= half_v
 
 
