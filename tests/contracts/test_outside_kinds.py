@@ -82,6 +82,8 @@ class SlopeSpecimen(SpecimenModel):
     slope_vpm: float
 ''',
     "slope_field": """
+import numpy as np
+
 class SlopeField:
     def __init__(self, model):
         self._model = model
@@ -90,8 +92,8 @@ class SlopeField:
     def at(self, u, v):
         return -0.2 + self._model.slope_vpm * u, 100.0
 
-    def active(self, u, v):
-        return False
+    def active(self, uv_m):
+        return np.zeros(len(uv_m), np.bool_)
 
 def slope_field(model, root, patch):
     return SlopeField(model)
