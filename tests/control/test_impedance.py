@@ -92,10 +92,11 @@ class Loop:
         self.estimate.q_WB[:] = self.reference.q_WB[:] = [1.0, 0.0, 0.0, 0.0]
         only = control.model_copy(update={"profiles": {"only": profile}})
         self.controller = ImpedanceController(body, only, R_BT, 250)
+        self.law = self.controller.bind(self.estimate, self.reference, self.command)
 
     def wrench(self) -> Array:
         self.controller.follow(int(self.reference.impedance))
-        self.controller.bind(self.estimate, self.reference, self.command)()
+        self.law()
         return np.array(self.command.wrench_B)
 
 

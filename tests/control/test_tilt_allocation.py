@@ -33,6 +33,8 @@ class Bench:
             platform.unit.max_thrust_n,
         )
         self.command = Command.create({"n_rotors": 2 * self.n, "n_servos": self.n})
+        self.weight_B = np.zeros(3)
+        self.allocated = self.allocation.bind(self.weight_B, self.command)
         self.model = build_spec(platform).compile()
         self.data = mujoco.MjData(self.model)
         self.body = nominal_body(build_spec(platform))
@@ -40,8 +42,8 @@ class Bench:
     def allocate(self, wrench_B: Array, weight_B: Array | None = None) -> Array:
         """Allocate; return the granted wrench."""
         self.command.wrench_B[:] = wrench_B
-        weight = np.zeros(3) if weight_B is None else weight_B
-        self.allocation.bind(weight, self.command)()
+        self.weight_B[:] = 0.0 if weight_B is None else weight_B
+        self.allocated()
         return np.array(self.command.allocated_B)
 
     def produced(self, q_WB: Array) -> Array:

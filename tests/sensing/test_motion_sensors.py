@@ -167,11 +167,13 @@ def test_the_filter_trusts_these_sensors_as_much_as_they_deserve() -> None:
                 pose.sample(Truth(state))
             if k == 0:
                 belief.start(pose.measurement, estimate)
+                propagate = belief.bind_propagation(imu.measurement, estimate)
+                correct = belief.bind_correction(pose.measurement, estimate)
             if k % 2 == 0:
                 imu.sample(Truth(state))
-                belief.bind_propagation(imu.measurement, estimate)()
+                propagate()
             if k % 5 == 0 and k > 0:
-                assert belief.bind_correction(pose.measurement, estimate)()
+                assert correct()
         believed = Rotation.from_quat(estimate.q_WB, scalar_first=True)
         turn = believed.inv() * Rotation.from_quat(state.q_WB, scalar_first=True)
         error = np.r_[-estimate.p_WB, -estimate.v_WB_W, turn.as_rotvec()]

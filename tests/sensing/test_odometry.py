@@ -181,17 +181,17 @@ class Shuttle:
             if k == 0:
                 self.sensor.sample(Truth(state))
                 self.filter.start(self.sensor.measurement, self.estimate)
+                propagate = self.filter.bind_propagation(imu, self.estimate)
+                correct = self.filter.bind_correction(self.sensor.measurement, self.estimate)
             if k % 3 == 0:
                 noise = root * np.repeat([2e-3, 2e-4], 3) * rng.standard_normal(6)
                 sample = noise + bias
                 imu.f_B = sample[:3] + np.array([0.64 * np.cos(0.8 * t), 0.0, 9.81])
                 imu.w_B = sample[3:]
-                self.filter.bind_propagation(imu, self.estimate)()
+                propagate()
             if k % 25 == 0 and k > 0:
                 self.sensor.sample(Truth(state))
-                self.rejected += not self.filter.bind_correction(
-                    self.sensor.measurement, self.estimate
-                )()
+                self.rejected += not correct()
         self.true_p = state.p_WB.copy()
         self.odometry_p = self.sensor._believed[:3].copy()
 
@@ -221,9 +221,10 @@ def test_the_filter_knows_by_its_gyroscopes_that_the_frame_turns_away() -> None:
         model = OdometryModel(**{**QUIET, "yaw_walk_turned": walk})
         filter_, estimate, pose, imu = ErrorStateFilter(IMU, model, 250, 30), *_first()
         filter_.start(pose, estimate)
+        propagate = filter_.bind_propagation(imu, estimate)
         for k in range(26):
             imu.t_s = k / 250.0
-            filter_.bind_propagation(imu, estimate)()
+            propagate()
         pose.t_s, pose.p_WB = 0.1, np.nan
         assert not filter_.bind_correction(pose, estimate)()
         variances.append(filter_.covariance[8, 8])
