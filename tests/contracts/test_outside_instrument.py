@@ -1,19 +1,26 @@
-"""An instrument of an installed package, with its judge, its metric and its chapter.
+"""One package outside adds a row to each registry; its vehicle is flown and reported.
 
-It reads the temperature of the surface: 20 °C with 2 K less for each metre upwards.
+Its instrument, with a judge, a metric and a chapter, reads the temperature of the surface: 20 °C
+with 2 K less for each metre upwards. The rest of the package stands in ``outside_rows``.
 """
 
 from __future__ import annotations
 
 import json
 import os
+import shutil
 import subprocess
 import sys
 from pathlib import Path
 
+import numpy as np
+import outside_rows
 import pytest
 
+from inspect_cli.errors import SchemaError
+from inspect_cli.log.reader import RunLog, read_log
 from inspect_cli.schema.campaign import builtin_root
+from inspect_cli.schema.loading import load_mission
 
 MODULES = {
     "thermometer_model": '''
@@ -124,8 +131,10 @@ CHAPTER = Chapter(
 ENTRY_POINTS = """
 [inspect_cli.sensors]
 thermometer = thermometer_model:ThermometerModel
+barometer = barometer_model:BarometerModel
 [inspect_cli.simulated_sensors]
 thermometer = thermometer_sensing:thermometer
+barometer = barometer_sensor:barometer
 [inspect_cli.judges]
 thermometer = thermometer_sensing:judging
 [inspect_cli.instruments]
@@ -135,9 +144,11 @@ temperatures = thermometer_chapter:CHAPTER
 """
 PLATFORM = """\
 schema: 1
-extends: tilt_rotor_hexarotor.yaml
+extends: survey_rotor.yaml
 name: with_thermometer
-sensors: {contact: {kind: thermometer, rate_hz: 50, settles_s: 1.0}}
+sensors:
+  contact: {kind: thermometer, rate_hz: 50, settles_s: 1.0}
+  altitude: {kind: barometer, rate_hz: 20, noise_m: 0.0}
 """
 MISSION = """\
 schema: 1
@@ -149,62 +160,126 @@ structure:
     surface:
       shape: {{kind: plane, center_m: [2.0, 0.0, 1.2], normal: [-1, 0, 0], size_m: [2, 2]}}
 tasks:
-  - contact_points: {{on: wall, at_m: [[2.0, 0.0, 1.2], [2.0, 0.1, 1.3]], dwell_s: 1.5}}
+  - tap: {{on: {surface}, at_m: [0.0, 0.0], up_m: 0.1, dwell_s: 1.5}}
     sensor: thermometer
-  - contact_points: {{on: wall, at_m: [[2.0, 0.2, 1.2]], dwell_s: 2}}
+  - contact_points: {{on: wall, at_m: [[2.0, -0.1, 1.2]], dwell_s: 2}}
     sensor: half_cell
 truth:
-  structure: {{wall: {{specimen: {{model: analytic}}}}}}
+  structure: {{wall: {{specimen: {{model: slope, slope_vpm: -0.5}}}}}}
+  disturbances: [{{kind: updraught, force_n: 2.0}}]
+  faults: [{{sensor: altitude, fault: nan, start_s: 2.0, end_s: 3.0}}]
 acceptance:
   - {{metric: thermometer.mean_c, min: 17.4, max: 17.6}}
   - {{metric: contact.points_valid, min: 3, max: 3}}
 """
 
 
-@pytest.fixture
-def folder(tmp_path: Path) -> Path:
+@pytest.fixture(scope="module")
+def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """A folder with the package installed and a campaign of two missions."""
-    site, campaign = tmp_path / "site", tmp_path / "campaign"
-    metadata = site / "thermometer-1.0.dist-info"
+    folder = tmp_path_factory.mktemp("outside")
+    site, campaign = folder / "site", folder / "campaign"
+    metadata = site / "outside-1.0.dist-info"
     metadata.mkdir(parents=True)
-    (metadata / "METADATA").write_text("Metadata-Version: 2.1\nName: thermometer\nVersion: 1.0\n")
-    (metadata / "entry_points.txt").write_text(ENTRY_POINTS)
-    for name, text in MODULES.items():
+    (metadata / "METADATA").write_text("Metadata-Version: 2.1\nName: outside\nVersion: 1.0\n")
+    (metadata / "entry_points.txt").write_text(ENTRY_POINTS + outside_rows.ENTRY_POINTS)
+    for name, text in (MODULES | outside_rows.MODULES).items():
         (site / f"{name}.py").write_text(text, encoding="utf-8")
     for name in ("missions", "platforms"):
         (campaign / name).mkdir(parents=True)
     (campaign / "platforms" / "with_thermometer.yaml").write_text(PLATFORM)
     base = builtin_root() / "platforms" / "tilt_rotor_hexarotor.yaml"
-    (campaign / "platforms" / base.name).write_text(base.read_text(encoding="utf-8"))
+    text = base.read_text(encoding="utf-8").replace("kind: tilt_rotor\n", "kind: survey_rotor\n")
+    text = text.replace(f"name: {base.stem}\n", "name: survey_rotor\n")
+    (campaign / "platforms" / "survey_rotor.yaml").write_text(text, encoding="utf-8")
     for name in ("warm", "warmer"):
-        (campaign / "missions" / f"{name}.yaml").write_text(MISSION.format(name=name))
-    return tmp_path
+        text = MISSION.format(name=name, surface="wall")
+        (campaign / "missions" / f"{name}.yaml").write_text(text)
+    return folder
 
 
-def run(folder: Path, *arguments: str) -> str:
+def run(folder: Path, *arguments: str, exit_code: int = 0) -> str:
+    """What ``inspect`` prints in a process that has the package."""
     env = os.environ | {"PYTHONPATH": str(folder / "site")}
     command = [sys.executable, "-m", "inspect_cli", *arguments]
     done = subprocess.run(
         command, cwd=folder / "campaign", env=env, capture_output=True, text=True, check=False
     )
-    assert done.returncode == 0, done.stdout + done.stderr
-    return done.stdout
+    assert done.returncode == exit_code, done.stdout + done.stderr
+    return done.stdout if exit_code == 0 else done.stderr
 
 
-def test_an_instrument_of_a_package_is_flown_by_two_workers_and_reported(folder: Path) -> None:
+@pytest.fixture(scope="module")
+def flown(folder: Path) -> Path:
+    """The run of one of two missions that two workers fly, reported."""
     out = folder / "runs"
     options = ("--jobs", "2", "--update", "--out", str(out), "--json")
     report = json.loads(run(folder, "regress", *options))
     assert [flight["verdict"] for flight in report["missions"]] == ["pass", "pass"]
     flown = out / "warm" / "with_thermometer-seed1"
+    run(folder, "report", str(flown), "--no-pictures")
+    return flown
+
+
+@pytest.fixture(scope="module")
+def log(flown: Path) -> RunLog:
+    return read_log(flown / "flight.mcap")
+
+
+def test_its_instrument_is_read_beside_the_half_cell(flown: Path) -> None:
     metrics = json.loads((flown / "metrics.json").read_text())
     first, second, potential = metrics["points"]
     assert first["values"]["temperature"] == pytest.approx(20.0 - 2.0 * 1.2, abs=0.02)
     assert second["values"]["temperature"] == pytest.approx(20.0 - 2.0 * 1.3, abs=0.02)
     assert "values" not in potential
-    assert potential["potential_mv"] == pytest.approx(-100.0, abs=6.0)
     assert metrics["metrics"]["thermometer.mean_c"]["unit"] == "°C"
-    run(folder, "report", str(flown))
+    # Its specimen: −0.2 V − 0.5 V/m · 0.1 m, and what a placement error of 5 mm and noise make.
+    assert potential["potential_mv"] == pytest.approx(-250.0, abs=6.0)
+
+
+def test_its_chapter_stands_in_the_report(flown: Path) -> None:
     page = (flown / "report.html").read_text(encoding="utf-8")
     assert "Temperatures of the surface" in page
     assert "Point 1: 17.60 degrees." in page or "Point 1: 17.59 degrees." in page
+
+
+def test_its_task_is_planned_for_its_kind_of_platform(flown: Path) -> None:
+    plan = json.loads((flown / "plan.json").read_text())
+    assert plan["platform"] == "with_thermometer"
+    targets = plan["targets"]
+    assert [target["label"] for target in targets] == ["1", "2", "3"]
+    assert [target["uv_m"] for target in targets[:2]] == [[0.0, 0.0], [0.0, 0.1]]
+    assert [target["sensor"] for target in targets] == ["thermometer", "thermometer", "half_cell"]
+    assert targets[0]["law"]["depth_m"] == 0.1
+
+
+def test_its_sensor_is_logged_at_its_rate_and_spoiled_by_its_fault(log: RunLog) -> None:
+    rows, state = log.channels["/sensor/barometer"], log.channels["/truth/state"]
+    rate_hz = (len(rows) - 1) / float(rows["t_s"][-1] - rows["t_s"][0])
+    assert rate_hz == pytest.approx(20.0, rel=1e-6)
+    lost = np.isnan(rows["height"])
+    assert list(rows["t_s"][lost]) == pytest.approx([2.0 + 0.05 * k for k in range(20)])
+    true = state["p_WB"][np.searchsorted(state["t_s"], rows["t_s"]), 2]
+    assert np.nanmax(np.abs(rows["height"] - true)) < 1e-9
+
+
+def test_its_disturbance_acts(log: RunLog) -> None:
+    state = log.channels["/truth/state"]
+    up_n = state["wrench_ext_B"][state["p_WB"][:, 2] > 0.6, 2]
+    assert np.median(up_n) == pytest.approx(2.0, abs=0.2)
+
+
+def test_the_surface_that_its_task_names_must_be_there(folder: Path, tmp_path: Path) -> None:
+    (tmp_path / "missions").mkdir()
+    mission = tmp_path / "missions" / "cold.yaml"
+    mission.write_text(MISSION.format(name="cold", surface="wal"))
+    shutil.copytree(folder / "campaign" / "platforms", tmp_path / "platforms")
+    message = " ".join(run(folder, "plan", str(mission), exit_code=2).split())
+    line = mission.read_text().split("on: wal,")[0].count("\n") + 1
+    assert f"cold.yaml:{line}:" in message
+    assert "no surface is named 'wal'" in message
+
+
+def test_without_the_package_its_kinds_are_refused(folder: Path) -> None:
+    with pytest.raises(SchemaError, match="survey_rotor"):
+        load_mission(folder / "campaign" / "missions" / "warm.yaml")
