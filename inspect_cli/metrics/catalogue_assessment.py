@@ -12,8 +12,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from inspect_cli.metrics.aggregation import ANEW
 from inspect_cli.metrics.flight import Flight, NotMeasured
-from inspect_cli.metrics.joined import ANEW
 from inspect_cli.metrics.readings import assessor, point_results
 from inspect_cli.metrics.spec import MetricSpec
 from inspect_cli.records import PointReading

@@ -6,8 +6,8 @@ import math
 from collections.abc import Callable
 from dataclasses import dataclass
 
+from inspect_cli.metrics.aggregation import ANEW
 from inspect_cli.metrics.flight import Flight, NotMeasured
-from inspect_cli.metrics.joined import ANEW
 from inspect_cli.metrics.readings import scoring_of
 from inspect_cli.metrics.spec import MetricSpec
 from inspect_cli.records import PointReading

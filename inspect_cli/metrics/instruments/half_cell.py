@@ -9,10 +9,10 @@ import numpy as np
 
 from inspect_cli.assessment.classes import astm_class, combined_verdict, resistivity
 from inspect_cli.assessment.electrodes import as_evaluated, to_standard
+from inspect_cli.metrics.aggregation import GREATEST, LEAST, SUM
 from inspect_cli.metrics.assessed import assess_points, basis_on
 from inspect_cli.metrics.flight import Flight, NotMeasured
 from inspect_cli.metrics.instrument import Instrument, PointReader, Values
-from inspect_cli.metrics.joined import GREATEST, LEAST, SUM
 from inspect_cli.metrics.points import contact_points, dwell_on, finite
 from inspect_cli.metrics.spec import MetricSpec, Tolerance
 from inspect_cli.metrics.truth_scoring import score
