@@ -27,7 +27,7 @@ from inspect_cli.commands.sweeps import Sampled, Variant
 from inspect_cli.errors import InputError, Location, Problem
 from inspect_cli.log.rasters import TrueRaster
 from inspect_cli.metrics.assessed import basis_on
-from inspect_cli.metrics.cells import Cells, cells_around, in_squares, nearest_to
+from inspect_cli.metrics.sample_areas import Cells, cells_around, in_squares, nearest_to
 from inspect_cli.metrics.truth_scoring import Judged, score_surface
 from inspect_cli.planning.lattice import lattice
 from inspect_cli.reporting.studies.pitch_figures import (
