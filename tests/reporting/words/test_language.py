@@ -24,8 +24,8 @@ from inspect_cli.metrics.flight import FlightData as Logged
 from inspect_cli.metrics.readings import point_results
 from inspect_cli.metrics.truth_scoring import NO_TRUTH
 from inspect_cli.records import InvalidReason
+from inspect_cli.reporting.content.read_points import ReadPoint
 from inspect_cli.reporting.documents.flight import report_document
-from inspect_cli.reporting.half_cell.points import ReadPoint
 from inspect_cli.reporting.screen.html import html
 from inspect_cli.reporting.studies.pitch_figures import (
     ACTIVE,
