@@ -55,7 +55,7 @@ def fly(
     """Fly a mission or a plan in simulation; write the log and the metrics."""
     from inspect_cli import terminal
     from inspect_cli.commands.fly import fly as command
-    from inspect_cli.commands.flying import FlightInterrupted
+    from inspect_cli.commands.single_flight import FlightInterrupted
 
     with stdout_kept_clean():
         terminal.announce_compilation(shown=not as_json)

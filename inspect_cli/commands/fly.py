@@ -8,9 +8,9 @@ from pathlib import Path
 
 from pydantic import ValidationError
 
-from inspect_cli.commands.flying import Progress, fly_into
 from inspect_cli.commands.plan import inputs_sha256, plan_loaded, vehicle_of
 from inspect_cli.commands.runs import prepared_run, run_folder
+from inspect_cli.commands.single_flight import Progress, fly_into
 from inspect_cli.commands.survey import fly_survey
 from inspect_cli.commands.truth_under_surface import truth_under_surfaces
 from inspect_cli.errors import InputError

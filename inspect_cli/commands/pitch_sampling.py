@@ -4,7 +4,7 @@ The region is the same for every pitch: the squares around the points that the m
 plans. A grid of the pitch p lies on it with each of 20 offsets, stratified over the square p × p
 and the same shares of it for every pitch. Every place of the region stands for its nearest
 reading. A reading is taken where the tool truly is, its point plus a normal error along u and
-along v, and its values are those of the probe's own model in firm contact, its noise included.
+along v; what it says there the instrument's own function knows (``Verdicts``).
 
 Standard errors are s/√20 over the offsets, as if they were independent. Strata can only lower the
 true ones, so the stated ones are rather too large. They are of where the grid happens to lie on
@@ -18,16 +18,14 @@ points. An error larger than the task's ``off_target_m`` spoils the reading, as 
 from __future__ import annotations
 
 from collections.abc import Iterator
+from typing import Protocol
 
 import numpy as np
 
-from inspect_cli.assessment.classes import astm_class, combined_verdict, resistivity
-from inspect_cli.assessment.electrodes import as_evaluated
 from inspect_cli.commands.sweeps import Sampled, Variant
 from inspect_cli.errors import InputError, Location, Problem
 from inspect_cli.log.rasters import TrueRaster
-from inspect_cli.metrics.assessed import basis_on
-from inspect_cli.metrics.cells import Cells, cells_around, in_squares, nearest_to
+from inspect_cli.metrics.sample_areas import Cells, cells_around, in_squares, nearest_to
 from inspect_cli.metrics.truth_scoring import Judged, score_surface
 from inspect_cli.planning.lattice import lattice
 from inspect_cli.reporting.studies.pitch_figures import (
@@ -50,8 +48,6 @@ from inspect_cli.schema.result import Metric
 from inspect_cli.schema.scoring import UNREAD, SurfaceScoring
 from inspect_cli.schema.tasks.contact_grid import ContactGrid
 from inspect_cli.schema.tasks.coverage import Coverage
-from inspect_cli.schema.vehicle import HalfCellModel
-from inspect_cli.sensing.half_cell import steady_readings
 from inspect_cli.simulation.randomness import component_rng
 from inspect_cli.spatial.arrays import Points, Vector
 from inspect_cli.truth.rasters import UnderSurface
@@ -64,19 +60,43 @@ FINER = 2.0
 """The raster's cells, as a multiple of those that a flight leaves in its log."""
 
 
+GridWork = ContactGrid | Coverage
+"""The tasks whose pitch can be varied."""
+
+
+class Verdicts(Protocol):
+    """What an instrument says of n places that it is steadily pressed onto."""
+
+    def __call__(
+        self,
+        loaded: Loaded,
+        work: GridWork,
+        potential_v: Vector,
+        resistivity_ohm_m: Vector,
+        rng: np.random.Generator,
+    ) -> Iterator[tuple[str, str]]:
+        """Verdicts by its combined rule and by ASTM C876, or ``UNREAD``, one pair for each place.
+
+        Potential (n,), V, and resistivity (n,), Ω·m, are the true ones there, NaN beside the
+        specimen.
+        """
+        ...
+
+
 class PitchSampler:
     """Grids of any pitch over the region of one mission."""
 
     def __init__(
         self,
         loaded: Loaded,
-        work: ContactGrid | Coverage,
+        work: GridWork,
         beneath: UnderSurface,
         planned: Points,
         seed: int,
+        verdicts: Verdicts,
     ) -> None:
         self._loaded, self._work, self._beneath, self._seed = loaded, work, beneath, seed
-        self._planned = planned
+        self._planned, self._verdicts = planned, verdicts
         self._raster: TrueRaster = beneath.raster(FINER)
         self._region: Cells = cells_around(planned, work.pitch_m, self._raster)
         unread = self._scored(np.empty((0, 2)), ())
@@ -109,11 +129,11 @@ class PitchSampler:
         errors = {n: float(x.std(ddof=1) / np.sqrt(len(x))) for n, (x, _) in samples.items()}
         return Sampled(_costs(plan) | means, errors)
 
-    def _at(self, work: ContactGrid | Coverage, offset: Vector, number: int) -> SurfaceScoring:
+    def _at(self, work: GridWork, offset: Vector, number: int) -> SurfaceScoring:
         """What a grid with one offset (2,) m comes to."""
         places = self._places(work, offset)
         rng = component_rng(self._seed, f"study.pitch.{work.pitch_m!r}.{number}")
-        said = tuple(self._verdicts(places, work, rng))
+        said = tuple(self._read(places, work, rng))
         return self._scored(places, said)
 
     def _scored(self, places: Points, said: tuple[tuple[str, str], ...]) -> SurfaceScoring:
@@ -122,28 +142,19 @@ class PitchSampler:
         cells = nearest_to(self._region, places, self._raster)
         return score_surface(Judged(places, combined, astm), cells, self._raster)
 
-    def _verdicts(
-        self, places: Points, work: ContactGrid | Coverage, rng: np.random.Generator
+    def _read(
+        self, places: Points, work: GridWork, rng: np.random.Generator
     ) -> Iterator[tuple[str, str]]:
-        """By the combined rule and by ASTM C876, at each of the places."""
-        mission, platform = self._loaded.mission, self._loaded.platform
-        probe = platform.sensor(HalfCellModel)
-        error = rng.normal(0.0, POSITION_SD_M[mission.estimation], places.shape)
+        """The verdicts at each of the places: see ``Verdicts``."""
+        error = rng.normal(0.0, POSITION_SD_M[self._loaded.mission.estimation], places.shape)
         across = np.column_stack([self._raster.across(places[:, 1]), np.ones(len(places))])
         volts, ohm_m, _ = self._beneath.at(places + error / across)
-        rate_hz = probe.rate_hz
-        basis = basis_on(mission, self._work.on, probe.electrode)
-        volts = as_evaluated(volts, basis)
-        volts, ohms = steady_readings(probe, volts, ohm_m, rate_hz, work.dwell_s, rng)
         missed = np.hypot(*error.T) > work.off_target_m
-        for volt, ohm, off in zip(volts.tolist(), ohms.tolist(), missed, strict=True):
-            if off or not np.isfinite(volt):
-                yield UNREAD, UNREAD
-                continue
-            rho = resistivity(ohm, probe.cell_constant_m)
-            yield combined_verdict(volt, rho) or UNREAD, astm_class(volt) or UNREAD
+        verdicts = self._verdicts(self._loaded, work, volts, ohm_m, rng)
+        for verdict, off in zip(verdicts, missed, strict=True):
+            yield (UNREAD, UNREAD) if off else verdict
 
-    def _places(self, work: ContactGrid | Coverage, offset: Vector) -> Points:
+    def _places(self, work: GridWork, offset: Vector) -> Points:
         """The points (n, 2) of a grid that lie in the region."""
         if isinstance(work, Coverage):
             shift = (float(offset[0]), float(offset[1]))
@@ -155,7 +166,7 @@ class PitchSampler:
         squares = self._planned, self._work.pitch_m
         return found[in_squares(found, *squares, self._raster)]
 
-    def _offsets(self, work: ContactGrid | Coverage) -> Points:
+    def _offsets(self, work: GridWork) -> Points:
         """(n, 2) in pitches, each within ±½; along a single line of points they lie on it."""
         rng = component_rng(self._seed, "study.pitch.offsets")
         columns, rows = STRATA
@@ -168,7 +179,7 @@ class PitchSampler:
         return spread
 
 
-def _grid(base: ContactGrid | Coverage, work: ContactGrid, offset: Vector) -> Points:
+def _grid(base: GridWork, work: ContactGrid, offset: Vector) -> Points:
     """A grid's points, one more on every side than it takes to cover what the mission covers."""
     assert isinstance(base, ContactGrid)  # a variant is a task of the same kind
     lines = []

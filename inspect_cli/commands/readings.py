@@ -1,4 +1,4 @@
-"""``inspect report --readings``: a survey that people took, evaluated and reported."""
+"""``inspect report --readings``: a half-cell survey that people took, evaluated and reported."""
 
 from __future__ import annotations
 
@@ -26,6 +26,7 @@ from inspect_cli.assessment.findings import disagreement
 from inspect_cli.assessment.kriging import KrigedMap
 from inspect_cli.assessment.mixture import resolution_of
 from inspect_cli.assessment.readings import Readings
+from inspect_cli.assessment.surface_findings import SurfaceFindings
 from inspect_cli.assessment.temperatures import standardised
 from inspect_cli.commands.delivery import (
     Export,
@@ -42,8 +43,7 @@ from inspect_cli.errors import InputError
 from inspect_cli.exchange.readings import HandedReadings
 from inspect_cli.exchange.readings_csv import readings_csv
 from inspect_cli.files import write_whole
-from inspect_cli.reporting.documents.readings import readings_document
-from inspect_cli.reporting.half_cell.surface_findings import SurfaceFindings
+from inspect_cli.reporting.half_cell.readings_document import readings_document
 from inspect_cli.schema.assessment import Basis
 from inspect_cli.schema.readings import ReadingsResult, SourceOfReadings
 from inspect_cli.schema.result import PointResult

@@ -26,7 +26,7 @@ from inspect_cli.errors import EXIT_CHECK_FAILED, EXIT_GOOD, InfeasibleError, In
 from inspect_cli.files import write_whole
 from inspect_cli.log.reader import read_log
 from inspect_cli.metrics.evaluate import measure
-from inspect_cli.metrics.flight import Flight
+from inspect_cli.metrics.flight import FlightData
 from inspect_cli.plugins import registered
 from inspect_cli.regression.executors import OpenExecutor, local_executors
 from inspect_cli.regression.flights import FlightEnd, FlightTask, Fly, fly_all
@@ -200,7 +200,7 @@ def _own(study: Study, end: FlightEnd) -> dict[str, Metric]:
     """The numbers of a flight that the study itself defines, from its log."""
     if end.folder is None or not study.own:
         return {}
-    flight = Flight(read_log(log_of(end.folder)))
+    flight = FlightData(read_log(log_of(end.folder)))
     # The states of a diverged flight overflow; what is not finite is caught number by number.
     with np.errstate(all="ignore"):
         return {name: measure(spec, flight) for name, spec in study.own.items()}

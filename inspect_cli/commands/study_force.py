@@ -18,7 +18,7 @@ import numpy as np
 from inspect_cli.commands.sweeps import Factor, Study, revalidated
 from inspect_cli.errors import InputError, Location, Problem
 from inspect_cli.estimation.observer_lag import first_order_response
-from inspect_cli.metrics.flight import Flight, root_mean_square
+from inspect_cli.metrics.flight import FlightData, root_mean_square
 from inspect_cli.metrics.force_sensor import measured_force
 from inspect_cli.metrics.spec import MetricSpec
 from inspect_cli.records import Reference, State, WallForce
@@ -30,7 +30,7 @@ from inspect_cli.schema.study import StudyColumn
 from inspect_cli.schema.vehicle import ControlModel, ImpedancePlatform, PlatformBase
 
 
-def lag_contact_rmse(flight: Flight) -> float:
+def lag_contact_rmse(flight: FlightData) -> float:
     """RMS error along x_W of a first-order lag of the sensor's force, N, in contact.
 
     Raises:

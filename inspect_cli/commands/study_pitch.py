@@ -8,14 +8,15 @@ the refinement rule would add in flight are left out: the pitch alone is varied.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from dataclasses import replace
 from itertools import pairwise
 
 import numpy as np
 
 from inspect_cli.assessment.classes import SUSTAINS_CORROSION_OHM_M
-from inspect_cli.commands.pitch_sampling import POSITION_SD_M, PitchSampler
+from inspect_cli.commands.half_cell_sampling import half_cell_verdicts
+from inspect_cli.commands.pitch_sampling import POSITION_SD_M, GridWork, PitchSampler, Verdicts
 from inspect_cli.commands.plan import plan_loaded, vehicle_of
 from inspect_cli.commands.sweeps import Factor, Study, revalidated, shortest
 from inspect_cli.commands.truth_under_surface import truth_under_surfaces
@@ -55,9 +56,11 @@ from inspect_cli.spatial.arrays import Points
 from inspect_cli.truth.rasters import all_under_surfaces
 
 WHOLE_LINES = 1e-9
+VERDICTS: Mapping[str, Verdicts] = {"half_cell": half_cell_verdicts}
+"""The instruments whose readings can be sampled without a flight: one row each."""
 
 
-def _work(loaded: Loaded) -> ContactGrid | Coverage:
+def _work(loaded: Loaded) -> GridWork:
     """The mission's grid.
 
     Raises:
@@ -78,6 +81,9 @@ def _refuse(loaded: Loaded) -> None:
     work = _work(loaded)
     if loaded.mission.tasks[0].instrument is None:
         raise _refused(loaded, "the study 'pitch' needs readings; sensor: none takes none", "")
+    if loaded.mission.tasks[0].instrument not in VERDICTS:
+        hint = f"it can sample: {', '.join(VERDICTS)}"
+        raise _refused(loaded, "the study 'pitch' cannot sample this task's instrument", hint)
     if isinstance(work, ContactGrid) and work.rows * work.columns == 1:
         raise _refused(loaded, "a single point has no pitch to vary", "give more rows or columns")
     entry = loaded.truth.structure.get(work.on)
@@ -100,7 +106,7 @@ def _pitch(loaded: Loaded) -> float:
 def _with_pitch(loaded: Loaded, pitch_m: float) -> Loaded:
     """The same extent with another pitch; the rows and columns of a grid follow."""
     work, task = _work(loaded), loaded.mission.tasks[0]
-    changed: ContactGrid | Coverage
+    changed: GridWork
     if isinstance(work, Coverage):
         changed = revalidated(work, pitch_m=pitch_m, refine=None)
         task = revalidated(task, coverage=changed)
@@ -131,7 +137,8 @@ def _sampler(loaded: Loaded, seed: int) -> PitchSampler:
     structure = truth_under_surfaces(loaded, one.surfaces)
     work = _work(as_it_stands)
     beneath = next(b for b in all_under_surfaces(structure, one.surfaces) if b.surface == work.on)
-    return PitchSampler(as_it_stands, work, beneath, _planned(one), seed)
+    verdicts = VERDICTS[as_it_stands.mission.tasks[0].instrument or ""]
+    return PitchSampler(as_it_stands, work, beneath, _planned(one), seed, verdicts)
 
 
 def _planned(plan: Plan) -> Points:

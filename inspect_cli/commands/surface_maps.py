@@ -9,7 +9,7 @@ from collections.abc import Iterable
 
 from inspect_cli.assessment.assess import Assessed
 from inspect_cli.assessment.kriging import krige
-from inspect_cli.reporting.half_cell.surface_findings import SurfaceFindings
+from inspect_cli.assessment.surface_findings import SurfaceFindings
 
 
 def with_maps(assessed: Iterable[Assessed]) -> list[SurfaceFindings]:

@@ -10,9 +10,9 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 from pathlib import Path
 
-from inspect_cli.commands.flying import FlightInterrupted, Progress, fly_into, timing
 from inspect_cli.commands.plan import surveyor_of
 from inspect_cli.commands.runs import METRICS_NAME, write_json, write_model
+from inspect_cli.commands.single_flight import FlightInterrupted, Progress, fly_into, timing
 from inspect_cli.log.rasters import TrueRaster
 from inspect_cli.metrics.readings import assessor, scorer
 from inspect_cli.metrics.survey import joined_result

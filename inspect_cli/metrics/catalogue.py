@@ -10,13 +10,7 @@ from inspect_cli.metrics import (
     readings,
     tracking,
 )
-from inspect_cli.metrics.catalogue_assessment import ASSESSMENT_METRICS
-from inspect_cli.metrics.catalogue_estimation import ESTIMATION_METRICS
-from inspect_cli.metrics.catalogue_flight import FLIGHT_METRICS
-from inspect_cli.metrics.catalogue_scoring import SCORING_METRICS
-from inspect_cli.metrics.catalogue_sliding import SLIDING_METRICS
-from inspect_cli.metrics.instruments import INSTRUMENTS
-from inspect_cli.metrics.joined import (
+from inspect_cli.metrics.aggregation import (
     GREATEST,
     LEAST,
     MEAN_OVER_POINTS,
@@ -24,6 +18,12 @@ from inspect_cli.metrics.joined import (
     RMS_OVER_TIME,
     SUM,
 )
+from inspect_cli.metrics.catalogue_assessment import ASSESSMENT_METRICS
+from inspect_cli.metrics.catalogue_estimation import ESTIMATION_METRICS
+from inspect_cli.metrics.catalogue_flight import FLIGHT_METRICS
+from inspect_cli.metrics.catalogue_scoring import SCORING_METRICS
+from inspect_cli.metrics.catalogue_sliding import SLIDING_METRICS
+from inspect_cli.metrics.instruments import INSTRUMENTS
 from inspect_cli.metrics.spec import MetricSpec
 from inspect_cli.records import (
     Estimate,

@@ -12,8 +12,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from inspect_cli.metrics.flight import Flight, NotMeasured
-from inspect_cli.metrics.joined import ANEW
+from inspect_cli.metrics.aggregation import ANEW
+from inspect_cli.metrics.flight import FlightData, NotMeasured
 from inspect_cli.metrics.readings import assessor, point_results
 from inspect_cli.metrics.spec import MetricSpec
 from inspect_cli.records import PointReading
@@ -124,8 +124,8 @@ def _metric(finding: Finding, assessed: Sequence[Assessed]) -> Metric:
         return Metric(value=None, unit=finding.unit, why=str(reason))
 
 
-def _function(finding: Finding) -> Callable[[Flight], float]:
-    def value(flight: Flight) -> float:
+def _function(finding: Finding) -> Callable[[FlightData], float]:
+    def value(flight: FlightData) -> float:
         _ = flight.read_targets  # without them there is nothing to assess
         assess = assessor(flight.mission, flight.platform, flight.plan.targets)
         assessed = assess(point_results(flight))

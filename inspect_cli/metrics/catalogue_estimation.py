@@ -6,7 +6,7 @@ from collections.abc import Callable
 from functools import partial
 
 from inspect_cli.metrics import force_sensor, odometry_drift, pose_error, settling
-from inspect_cli.metrics.flight import Flight
+from inspect_cli.metrics.flight import FlightData
 from inspect_cli.metrics.spec import MetricSpec
 from inspect_cli.records import Estimate, Reference, State, WallForce
 
@@ -22,7 +22,7 @@ def _per_axis(
     name: str,
     axes: str,
     unit: str,
-    function: Callable[[Flight, int], float],
+    function: Callable[[FlightData, int], float],
     meaning: str,
 ) -> dict[str, MetricSpec]:
     """One metric per axis, against the force sensor; {} in name and meaning is the axis."""
@@ -34,7 +34,7 @@ def _per_axis(
     }
 
 
-def _of_axis(function: Callable[[Flight, int], float], axis: int, flight: Flight) -> float:
+def _of_axis(function: Callable[[FlightData, int], float], axis: int, flight: FlightData) -> float:
     return function(flight, axis)
 
 

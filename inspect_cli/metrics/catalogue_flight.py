@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from inspect_cli.metrics import energy, operation
-from inspect_cli.metrics.joined import GREATEST, MEAN_OVER_ENERGY, MEAN_OVER_TIME, SUM
+from inspect_cli.metrics.aggregation import GREATEST, MEAN_OVER_ENERGY, MEAN_OVER_TIME, SUM
 from inspect_cli.metrics.spec import MetricSpec
 from inspect_cli.records import Command, Reference, State
 

@@ -6,8 +6,8 @@ import math
 from collections.abc import Callable
 from dataclasses import dataclass
 
-from inspect_cli.metrics.flight import Flight, NotMeasured
-from inspect_cli.metrics.joined import ANEW
+from inspect_cli.metrics.aggregation import ANEW
+from inspect_cli.metrics.flight import FlightData, NotMeasured
 from inspect_cli.metrics.readings import scoring_of
 from inspect_cli.metrics.spec import MetricSpec
 from inspect_cli.records import PointReading
@@ -107,8 +107,8 @@ def _metric(score: Score, scoring: Scoring) -> Metric:
     return Metric(value=value, unit=score.unit)
 
 
-def _function(score: Score) -> Callable[[Flight], float]:
-    def value(flight: Flight) -> float:
+def _function(score: Score) -> Callable[[FlightData], float]:
+    def value(flight: FlightData) -> float:
         found = score.of(scoring_of(flight))
         if math.isnan(found):
             raise NotMeasured(NOTHING_ACTIVE)

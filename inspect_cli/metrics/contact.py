@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from inspect_cli.metrics.flight import TOUCH_N, Flight, NotMeasured, Rows, largest, mean
+from inspect_cli.metrics.flight import TOUCH_N, FlightData, NotMeasured, Rows, largest, mean
 from inspect_cli.records import TrueContact
 from inspect_cli.schema.modes import Phase
 from inspect_cli.schema.plan import Target
@@ -18,7 +18,7 @@ SLID = ("stroke", "following")
 """Kinds of target that are held in contact until the tool lifts off."""
 
 
-def steady_forces(flight: Flight) -> Vector:
+def steady_forces(flight: FlightData) -> Vector:
     """Mean true normal force over the last 2 s of each point's dwell, (n_targets,) N.
 
     A point that was planned and never pressed counts as 0 N.
@@ -28,27 +28,27 @@ def steady_forces(flight: Flight) -> Vector:
     return np.array([np.mean(force[dwell.steady]) if dwell else 0.0 for dwell in dwells])
 
 
-def force_mean(flight: Flight) -> float:
+def force_mean(flight: FlightData) -> float:
     """Mean over the points of their steady forces, N."""
     return mean(steady_forces(flight))
 
 
-def force_mean_min(flight: Flight) -> float:
+def force_mean_min(flight: FlightData) -> float:
     """The least of the points' steady forces, N."""
     return -largest(-steady_forces(flight))
 
 
-def force_mean_max(flight: Flight) -> float:
+def force_mean_max(flight: FlightData) -> float:
     """The greatest of the points' steady forces, N."""
     return largest(steady_forces(flight))
 
 
-def force_peak(flight: Flight) -> float:
+def force_peak(flight: FlightData) -> float:
     """Largest true normal force of the whole flight, N."""
     return largest(flight.state["f_normal"])
 
 
-def force_cv(flight: Flight) -> float:
+def force_cv(flight: FlightData) -> float:
     """Worst coefficient of variation (σ / mean) of the true normal force of a contact.
 
     Each from 1 s after its first touch: of a point to the end of its dwell, of a stroke and of a
@@ -64,14 +64,14 @@ def force_cv(flight: Flight) -> float:
     return max(settled)
 
 
-def _held(flight: Flight, target: Target) -> Rows:
+def _held(flight: FlightData, target: Target) -> Rows:
     if target.kind in SLID:
         return held_rows(flight, target)
     dwell = flight.dwells.get(target.index)
     return dwell.rows if dwell else np.empty(0, np.intp)
 
 
-def _variation(flight: Flight, rows: Rows) -> float | None:
+def _variation(flight: FlightData, rows: Rows) -> float | None:
     times = flight.state["t_s"][rows]
     settled = flight.state["f_normal"][rows][times > times[:1] + SETTLE_S]
     if len(settled) < 2:
@@ -79,7 +79,7 @@ def _variation(flight: Flight, rows: Rows) -> float | None:
     return float(np.std(settled) / np.mean(settled))
 
 
-def held_rows(flight: Flight, target: Target) -> Rows:
+def held_rows(flight: FlightData, target: Target) -> Rows:
     """Rows from first touch to release of a target along which the tool slides.
 
     Raises:
@@ -91,7 +91,7 @@ def held_rows(flight: Flight, target: Target) -> Rows:
     return rows
 
 
-def bounce_gaps(flight: Flight) -> float:
+def bounce_gaps(flight: FlightData) -> float:
     """Number of gaps longer than 50 ms with less than 0.1 N between first touch and release.
 
     Raises:
@@ -103,7 +103,7 @@ def bounce_gaps(flight: Flight) -> float:
     return float(sum(gaps_of(flight, target) for target in flight.contact_targets))
 
 
-def gaps_of(flight: Flight, target: Target) -> int:
+def gaps_of(flight: FlightData, target: Target) -> int:
     """Those of one target.
 
     The release is the last touch or the end of the touching modes, whichever comes later: a contact
@@ -123,12 +123,12 @@ def gaps_of(flight: Flight, target: Target) -> int:
     return int(np.sum(gaps_s > LONGEST_GAP_S + 1e-6))
 
 
-def body_force_max(flight: Flight) -> float:
+def body_force_max(flight: FlightData) -> float:
     """Largest contact force on anything but tool and landing gear, N, in the whole flight."""
     return largest(flight.state["f_body"])
 
 
-def position_error(flight: Flight, target: Target) -> float | None:
+def position_error(flight: FlightData, target: Target) -> float | None:
     """Distance along the surface between planned and true contact point, m; None if not pressed.
 
     e − (e·n) n with e from the planned point to the tip's true mean position over the steady end
@@ -145,7 +145,7 @@ def position_error(flight: Flight, target: Target) -> float | None:
     return float(np.linalg.norm(error - (error @ normal) * normal))
 
 
-def position_error_max(flight: Flight) -> float:
+def position_error_max(flight: FlightData) -> float:
     """The largest ``position_error`` of the points that were pressed, m.
 
     Where a surface is found by the camera alone, no point of it was planned.

@@ -26,7 +26,7 @@ from itertools import combinations
 import numpy as np
 
 from inspect_cli.metrics.contact import held_rows
-from inspect_cli.metrics.flight import Flight, NotMeasured, Rows, largest, root_mean_square
+from inspect_cli.metrics.flight import FlightData, NotMeasured, Rows, largest, root_mean_square
 from inspect_cli.metrics.geometry import attitude_angle
 from inspect_cli.records import TrueContact
 from inspect_cli.schema.modes import Phase
@@ -56,7 +56,7 @@ class Repeat:
         return root_mean_square(self.apart_m)
 
 
-def drawn_targets(flight: Flight) -> list[tuple[Target, Stroke]]:
+def drawn_targets(flight: FlightData) -> list[tuple[Target, Stroke]]:
     """The strokes of the plan, in its order.
 
     Raises:
@@ -68,7 +68,7 @@ def drawn_targets(flight: Flight) -> list[tuple[Target, Stroke]]:
     return found
 
 
-def slide_rows(flight: Flight, target: Target) -> Rows:
+def slide_rows(flight: FlightData, target: Target) -> Rows:
     """Rows of the state in which the tool slid along a target's line.
 
     Raises:
@@ -81,7 +81,7 @@ def slide_rows(flight: Flight, target: Target) -> Rows:
     return rows
 
 
-def normals(flight: Flight, target: Target, rows: Rows) -> Points:
+def normals(flight: FlightData, target: Target, rows: Rows) -> Points:
     """Outward normals at the tip, (n, 3): the true ones where there are, else the planned one."""
     planned = np.tile(np.array(target.n_W), (len(rows), 1))
     if flight.log.rows(TrueContact) is None:
@@ -103,7 +103,7 @@ def way_along(p_W: Points, n_W: Points) -> Vector:
     return np.concatenate([np.zeros(1), np.cumsum(steps)])
 
 
-def repeats(flight: Flight) -> list[Repeat]:
+def repeats(flight: FlightData) -> list[Repeat]:
     """Every two trials of every stroke that is drawn more than once.
 
     Raises:
@@ -120,7 +120,7 @@ def repeats(flight: Flight) -> list[Repeat]:
     return found
 
 
-def _repeat(flight: Flight, first: Target, second: Target) -> Repeat:
+def _repeat(flight: FlightData, first: Target, second: Target) -> Repeat:
     rows_a, rows_b = slide_rows(flight, first), slide_rows(flight, second)
     n_W = normals(flight, first, rows_a)
     way_a = way_along(flight.reference["p_WT"][rows_a], n_W)
@@ -134,19 +134,19 @@ def _repeat(flight: Flight, first: Target, second: Target) -> Repeat:
     return Repeat(first, second, way_a, np.linalg.norm(apart, axis=1))
 
 
-def _progress(flight: Flight, rows: Rows, way_m: Vector) -> Vector:
+def _progress(flight: FlightData, rows: Rows, way_m: Vector) -> Vector:
     """σ, (n,) m, which grows from row to row."""
     times = flight.state["t_s"][rows]
     grown: Vector = way_m + CREEP_MPS * (times - times[0])
     return grown
 
 
-def repeat_rms(flight: Flight) -> float:
+def repeat_rms(flight: FlightData) -> float:
     """RMS difference of two trials of a stroke in the plane, m: of all pairs the largest."""
     return max(repeat.rms_m for repeat in repeats(flight))
 
 
-def tracking_rms(flight: Flight) -> float:
+def tracking_rms(flight: FlightData) -> float:
     """RMS distance in the plane between true tip and reference while sliding, all strokes, m."""
     errors = []
     for target, _ in drawn_targets(flight):
@@ -156,7 +156,7 @@ def tracking_rms(flight: Flight) -> float:
     return root_mean_square(np.concatenate(errors))
 
 
-def attitude_error_max(flight: Flight) -> float:
+def attitude_error_max(flight: FlightData) -> float:
     """Largest angle between reference and true attitude from first touch to release, rad.
 
     Raises:

@@ -15,7 +15,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from inspect_cli.metrics.flight import Flight, NotMeasured
+from inspect_cli.metrics.flight import FlightData, NotMeasured
 from inspect_cli.schema.modes import Phase
 from inspect_cli.schema.vehicle import RotorDrive
 from inspect_cli.spatial.arrays import Points, Vector
@@ -41,7 +41,7 @@ def electrical_power_w(
     return power
 
 
-def energy_flown(flight: Flight) -> float:
+def energy_flown(flight: FlightData) -> float:
     """Energy, Wh, from take-off to landing, the safe hover after an abort included."""
     drives = flight.platform.rotor_drives()
     if drives is None:
@@ -57,6 +57,6 @@ def energy_flown(flight: Flight) -> float:
     return float(np.trapezoid(power_w, times)) / JOULE_PER_WH
 
 
-def planned_over_flown(flight: Flight) -> float:
+def planned_over_flown(flight: FlightData) -> float:
     """The plan's energy as a share of the flown one."""
     return flight.plan.energy_wh / energy_flown(flight)

@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import numpy as np
 
-from inspect_cli.metrics.flight import Flight, root_mean_square
+from inspect_cli.metrics.flight import FlightData, root_mean_square
 from inspect_cli.metrics.geometry import attitude_angle
 from inspect_cli.records import Estimate
 from inspect_cli.spatial.arrays import Points
 
 
-def position_rmse(flight: Flight) -> float:
+def position_rmse(flight: FlightData) -> float:
     """RMS distance between estimated and true position of O_b, m, from take-off to landing."""
     flying = flight.airborne
     estimate = flight.on_state_ticks(Estimate)
@@ -18,14 +18,14 @@ def position_rmse(flight: Flight) -> float:
     return root_mean_square(np.linalg.norm(errors, axis=1))
 
 
-def attitude_rmse(flight: Flight) -> float:
+def attitude_rmse(flight: FlightData) -> float:
     """RMS angle between estimated and true attitude, rad, from take-off to landing."""
     flying = flight.airborne
     estimate = flight.on_state_ticks(Estimate)
     return root_mean_square(attitude_angle(estimate["q_WB"][flying], flight.state["q_WB"][flying]))
 
 
-def wrench_errors(flight: Flight) -> Points:
+def wrench_errors(flight: FlightData) -> Points:
     """Observed less true external wrench about O_b, (n, 6) N and N·m in B.
 
     Between take-off and landing: the push of the ground on the landing gear, which ends within
@@ -37,11 +37,11 @@ def wrench_errors(flight: Flight) -> Points:
     return errors
 
 
-def wrench_force_rmse(flight: Flight) -> float:
+def wrench_force_rmse(flight: FlightData) -> float:
     """RMS length of the observer's force error, N."""
     return root_mean_square(np.linalg.norm(wrench_errors(flight)[:, :3], axis=1))
 
 
-def wrench_torque_rmse(flight: Flight) -> float:
+def wrench_torque_rmse(flight: FlightData) -> float:
     """RMS length of the observer's torque error, N·m."""
     return root_mean_square(np.linalg.norm(wrench_errors(flight)[:, 3:], axis=1))

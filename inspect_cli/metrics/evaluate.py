@@ -15,7 +15,7 @@ from inspect_cli.metrics.catalogue import METRICS
 from inspect_cli.metrics.catalogue_assessment import assessment_metrics
 from inspect_cli.metrics.catalogue_scoring import metrics_of
 from inspect_cli.metrics.evaluation import Evaluation
-from inspect_cli.metrics.flight import Flight, NotMeasured
+from inspect_cli.metrics.flight import FlightData, NotMeasured
 from inspect_cli.metrics.readings import (
     assessor,
     channels_of,
@@ -45,7 +45,7 @@ def evaluate_with_arrays(log: RunLog) -> Evaluation:
     Raises:
         LogError: mission, platform or plan are not attached to the log.
     """
-    flight = Flight(log)
+    flight = FlightData(log)
     mission = flight.mission
     # The states of a diverged flight overflow; what is not finite is caught number by number.
     with np.errstate(all="ignore"):
@@ -71,14 +71,14 @@ def evaluate_with_arrays(log: RunLog) -> Evaluation:
     return Evaluation(result, assessed)
 
 
-def _assessed(flight: Flight, points: Sequence[PointResult]) -> tuple[Assessed, ...]:
+def _assessed(flight: FlightData, points: Sequence[PointResult]) -> tuple[Assessed, ...]:
     """The findings of every surface; none of a log that has no readings."""
     if not has_readings(flight):
         return ()
     return assessor(flight.mission, flight.platform, flight.plan.targets)(points)
 
 
-def _scoring(flight: Flight) -> Scoring | None:
+def _scoring(flight: FlightData) -> Scoring | None:
     """The verdicts against the truth, taken once for all the metrics that show parts of it."""
     if not has_readings(flight):
         return None
@@ -88,7 +88,7 @@ def _scoring(flight: Flight) -> Scoring | None:
         return None
 
 
-def measure(spec: MetricSpec, flight: Flight) -> Metric:
+def measure(spec: MetricSpec, flight: FlightData) -> Metric:
     """The metric's value, or None and the reason why the log cannot tell it."""
     needed = channels_of(flight, spec.needs)
     missing = [record.topic for record in needed if flight.log.rows(record) is None]

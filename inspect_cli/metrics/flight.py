@@ -42,14 +42,14 @@ class Dwell:
     """
 
     rows: Rows
-    """Rows of ``Flight.state``."""
+    """Rows of ``FlightData.state``."""
     steady: Rows
     """Those of the last ``STEADY_S``."""
 
 
 @dataclass(frozen=True)
-class Flight:
-    """A log with what is derived from several of its channels, computed once."""
+class FlightData:
+    """The log of a flight with what is derived from several of its channels, computed once."""
 
     log: RunLog
 

@@ -20,7 +20,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from inspect_cli.metrics.flight import Flight, NotMeasured, largest, root_mean_square
+from inspect_cli.metrics.flight import FlightData, NotMeasured, largest, root_mean_square
 from inspect_cli.metrics.geometry import turned_back_by, turned_by
 from inspect_cli.records import Estimate, WallForce
 from inspect_cli.spatial.arrays import Matrix, Points, Vector
@@ -44,7 +44,7 @@ class Signal:
     p_WS: Vector
 
 
-def signal(flight: Flight) -> Signal:
+def signal(flight: FlightData) -> Signal:
     """The sensor's samples of a flight, raw and filtered.
 
     Raises:
@@ -72,7 +72,7 @@ def low_pass(samples: Points, rate_hz: float) -> Points:
     return filtered
 
 
-def force_errors(flight: Flight) -> Points:
+def force_errors(flight: FlightData) -> Points:
     """Estimated less measured force on the vehicle in W, (n, 3) N, on the ticks of the state."""
     estimate = flight.on_state_ticks(Estimate)
     estimated = turned_by(estimate["q_WB"], estimate["wrench_B"][:, :3])
@@ -80,14 +80,14 @@ def force_errors(flight: Flight) -> Points:
     return errors
 
 
-def measured_force(flight: Flight) -> Points:
+def measured_force(flight: FlightData) -> Points:
     """Filtered force of the surface on the vehicle in W, (n, 3) N, on the ticks of the state."""
     measured = signal(flight)
     force: Points = -(_on_ticks(flight, measured)[:, :3] @ measured.R_WS.T)
     return force
 
 
-def torque_errors(flight: Flight) -> Points:
+def torque_errors(flight: FlightData) -> Points:
     """Estimated less measured torque on the vehicle about the tip in W, (n, 3) N·m."""
     measured, state = signal(flight), flight.state
     wrench = _on_ticks(flight, measured)
@@ -101,35 +101,35 @@ def torque_errors(flight: Flight) -> Points:
     return errors
 
 
-def force_rmse(flight: Flight, axis: int) -> float:
+def force_rmse(flight: FlightData, axis: int) -> float:
     """RMS force error along an axis of W, N, between take-off and landing."""
     return root_mean_square(force_errors(flight)[flight.off_ground, axis])
 
 
-def contact_force_rmse(flight: Flight, axis: int) -> float:
+def contact_force_rmse(flight: FlightData, axis: int) -> float:
     """The same while the tool touches."""
     rows = flight.off_ground & flight.touching
     return root_mean_square(force_errors(flight)[rows, axis])
 
 
-def sensor_force_rmse(flight: Flight, axis: int) -> float:
+def sensor_force_rmse(flight: FlightData, axis: int) -> float:
     """RMS force error along an axis of the sensor's frame S, N, between take-off and landing."""
     in_S = force_errors(flight)[flight.off_ground] @ signal(flight).R_WS
     return root_mean_square(in_S[:, axis])
 
 
-def torque_rmse(flight: Flight, axis: int) -> float:
+def torque_rmse(flight: FlightData, axis: int) -> float:
     """RMS torque error about the tip and an axis of W, N·m, between take-off and landing."""
     return root_mean_square(torque_errors(flight)[flight.off_ground, axis])
 
 
-def contact_torque_rmse(flight: Flight, axis: int) -> float:
+def contact_torque_rmse(flight: FlightData, axis: int) -> float:
     """The same while the tool touches."""
     rows = flight.off_ground & flight.touching
     return root_mean_square(torque_errors(flight)[rows, axis])
 
 
-def peak(flight: Flight) -> float:
+def peak(flight: FlightData) -> float:
     """Largest pressing force of the filtered signal, N: what a plot of it shows.
 
     A short blow at the touch is smoothed away, and a release at full force makes the filter
@@ -138,14 +138,14 @@ def peak(flight: Flight) -> float:
     return largest(-signal(flight).filtered[:, 2])
 
 
-def noise(flight: Flight) -> float:
+def noise(flight: FlightData) -> float:
     """RMS of the raw less the filtered normal force, N, at least 1 s from any touch."""
     measured = signal(flight)
     away = np.interp(measured.t_s, flight.state["t_s"], flight.near_touch(AWAY_S)) == 0.0
     return root_mean_square((measured.raw - measured.filtered)[away, 2])
 
 
-def _on_ticks(flight: Flight, measured: Signal) -> Points:
+def _on_ticks(flight: FlightData, measured: Signal) -> Points:
     """The filtered signal (n, 6) at the times of the state; the last block may be missing."""
     times = flight.state["t_s"]
     columns = [np.interp(times, measured.t_s, column) for column in measured.filtered.T]

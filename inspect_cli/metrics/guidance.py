@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from inspect_cli.metrics.flight import Flight, NotMeasured, mean, nearest
+from inspect_cli.metrics.flight import FlightData, NotMeasured, mean, nearest
 from inspect_cli.metrics.geometry import direction_angle
 from inspect_cli.records import SurfaceEstimate, TrueContact
 from inspect_cli.schema.modes import AT_SURFACE
@@ -13,7 +13,7 @@ from inspect_cli.spatial.rotations import rotate
 NO_SURFACE = -1.0
 
 
-def normal_error_mean_deg(flight: Flight) -> float:
+def normal_error_mean_deg(flight: FlightData) -> float:
     """Mean angle between the seen and the true outward normal, degrees.
 
     Over the valid estimates of approach, press and retreat, when the surface on the tool's axis
@@ -31,7 +31,7 @@ def normal_error_mean_deg(flight: Flight) -> float:
     return float(np.degrees(mean(angles)))
 
 
-def tool_axis_error_mean_deg(flight: Flight) -> float:
+def tool_axis_error_mean_deg(flight: FlightData) -> float:
     """Mean angle between z_T and the true inward normal while the tool touches, degrees."""
     contact = flight.on_state_ticks(TrueContact)
     usable = flight.touching & flight.airborne & (contact["surface"] != NO_SURFACE)

@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
 from inspect_cli.log.rasters import TrueRaster
-from inspect_cli.metrics.flight import Flight
+from inspect_cli.metrics.flight import FlightData
 from inspect_cli.metrics.planned_cells import PlannedCells
 from inspect_cli.metrics.spec import MetricSpec, Tolerance
 from inspect_cli.records import PointReading
@@ -26,14 +26,14 @@ if TYPE_CHECKING:
 
 Values = Mapping[str, float]
 """By the names of the fields of an instrument's reading; what is not finite is left out."""
-Complete = Callable[[Flight, Target, PointResult, Values], PointResult]
+Complete = Callable[[FlightData, Target, PointResult, Values], PointResult]
 """Adds what was read to the result of a point, which says already where it lies, how it was
 touched and whether it is valid; without a valid reading there are no values."""
 ScorePoints = Callable[[Sequence[PointResult], Sequence[TrueRaster], PlannedCells], Scoring]
 
 
 def values_as_read(
-    flight: Flight, target: Target, point: PointResult, values: Values
+    flight: FlightData, target: Target, point: PointResult, values: Values
 ) -> PointResult:
     """The values stand in the result under the names of their fields."""
     return point.model_copy(update={"values": dict(values)})

@@ -19,7 +19,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from inspect_cli.metrics.flight import Flight, NotMeasured, mean
+from inspect_cli.metrics.flight import FlightData, NotMeasured, mean
 from inspect_cli.metrics.geometry import attitude_angle
 from inspect_cli.schema.vehicle import OdometryModel
 from inspect_cli.spatial.arrays import Mask, Points, Vector
@@ -28,7 +28,7 @@ STEP = 10
 """Rows of the log between two steps of the sums."""
 
 
-def expected_position_rmse(flight: Flight, axis: int) -> float:
+def expected_position_rmse(flight: FlightData, axis: int) -> float:
     """Expected RMS error of the odometry along an axis of W, m, from take-off to landing."""
     model = _model(flight)
     p, distance, increments = _path(flight, model)
@@ -41,7 +41,7 @@ def expected_position_rmse(flight: Flight, axis: int) -> float:
     return float(np.sqrt(mean(variance[_airborne(flight)])))
 
 
-def expected_yaw_rmse(flight: Flight) -> float:
+def expected_yaw_rmse(flight: FlightData) -> float:
     """Expected RMS error of the odometry's yaw, rad, from take-off to landing."""
     model = _model(flight)
     _, _, increments = _path(flight, model)
@@ -49,7 +49,7 @@ def expected_yaw_rmse(flight: Flight) -> float:
     return float(np.sqrt(mean(variance[_airborne(flight)])))
 
 
-def _model(flight: Flight) -> OdometryModel:
+def _model(flight: FlightData) -> OdometryModel:
     odometry = flight.platform.find(OdometryModel)
     if odometry is None or flight.log.mission().estimation != "onboard":
         raise NotMeasured("the flight was not flown on odometry")
@@ -59,12 +59,12 @@ def _model(flight: Flight) -> OdometryModel:
     return odometry
 
 
-def _airborne(flight: Flight) -> Mask:
+def _airborne(flight: FlightData) -> Mask:
     rows: Mask = flight.airborne[::STEP]
     return rows
 
 
-def _path(flight: Flight, model: OdometryModel) -> tuple[Points, Vector, Vector]:
+def _path(flight: FlightData, model: OdometryModel) -> tuple[Points, Vector, Vector]:
     """Positions (n, 3), distance travelled (n,) m and increments q (n,) rad² of the steps."""
     state = flight.state[::STEP]
     p = state["p_WB"]

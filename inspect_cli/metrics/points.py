@@ -9,7 +9,7 @@ from typing import Any, SupportsFloat
 import numpy as np
 
 from inspect_cli.metrics.contact import position_error
-from inspect_cli.metrics.flight import Dwell, Flight, NotMeasured
+from inspect_cli.metrics.flight import Dwell, FlightData, NotMeasured
 from inspect_cli.metrics.instrument import PointReader, Values
 from inspect_cli.records import InvalidReason, PointReading
 from inspect_cli.schema.plan import Target
@@ -18,7 +18,7 @@ from inspect_cli.schema.vehicle import InstrumentModel
 from inspect_cli.spatial.arrays import Structured
 
 
-def points_read_by(reader: PointReader, flight: Flight) -> dict[int, PointResult]:
+def points_read_by(reader: PointReader, flight: FlightData) -> dict[int, PointResult]:
     """One result for each target that an instrument is read at, by the target's index."""
     readings = flight.log.rows(reader.reading)
     last = {} if readings is None else {float(row["target"]): row for row in readings}
@@ -29,7 +29,7 @@ def points_read_by(reader: PointReader, flight: Flight) -> dict[int, PointResult
     }
 
 
-def contact_points(reader: PointReader, flight: Flight) -> list[PointResult]:
+def contact_points(reader: PointReader, flight: FlightData) -> list[PointResult]:
     """The results of the targets that an instrument was to read, in the plan's order.
 
     Raises:
@@ -41,7 +41,7 @@ def contact_points(reader: PointReader, flight: Flight) -> list[PointResult]:
     return list(points_read_by(reader, flight).values())
 
 
-def sensor_of(reader: PointReader, flight: Flight) -> InstrumentModel:
+def sensor_of(reader: PointReader, flight: FlightData) -> InstrumentModel:
     """The model of the sensor that took an instrument's readings.
 
     Raises:
@@ -54,7 +54,7 @@ def sensor_of(reader: PointReader, flight: Flight) -> InstrumentModel:
 
 
 def _point(
-    reader: PointReader, flight: Flight, target: Target, reading: Structured | None
+    reader: PointReader, flight: FlightData, target: Target, reading: Structured | None
 ) -> PointResult:
     model = sensor_of(reader, flight)
     values = {} if reading is None else _values(reader.reading, reading)
@@ -76,7 +76,7 @@ def _point(
     return reader.complete(flight, target, point, values if valid else {})
 
 
-def dwell_on(flight: Flight, target: Target) -> Dwell | None:
+def dwell_on(flight: FlightData, target: Target) -> Dwell | None:
     """When a target was truly pressed; None where it was not or the log has no truth about it."""
     try:
         return flight.dwells.get(target.index)
@@ -84,7 +84,7 @@ def dwell_on(flight: Flight, target: Target) -> Dwell | None:
         return None
 
 
-def _true_touch(flight: Flight, target: Target) -> dict[str, Any]:
+def _true_touch(flight: FlightData, target: Target) -> dict[str, Any]:
     """How a target was truly touched; nothing where the log has no truth about it."""
     try:
         dwell = flight.dwells.get(target.index)

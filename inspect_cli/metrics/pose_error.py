@@ -13,7 +13,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from inspect_cli.metrics.flight import Flight, NotMeasured, root_mean_square
+from inspect_cli.metrics.flight import FlightData, NotMeasured, root_mean_square
 from inspect_cli.metrics.geometry import rotation_vectors
 from inspect_cli.records import Estimate
 from inspect_cli.schema.vehicle import PoseTrackerModel
@@ -32,12 +32,12 @@ HOVERING_M = 0.02
 """A window is quasi-static when it travels less than this."""
 
 
-def position_rmse(flight: Flight, axis: int) -> float:
+def position_rmse(flight: FlightData, axis: int) -> float:
     """RMS error of the estimated position along an axis of W, m, take-off to landing."""
     return root_mean_square(position_errors(flight)[flight.airborne, axis])
 
 
-def attitude_rmse(flight: Flight, axis: int, true_body: bool) -> float:
+def attitude_rmse(flight: FlightData, axis: int, true_body: bool) -> float:
     """RMS error about an axis, rad, take-off to landing; against B, or against the tracker's M."""
     flying = flight.airborne
     estimate = flight.on_state_ticks(Estimate)["q_WB"][flying]
@@ -64,13 +64,13 @@ def turned_frames(q: Points, turn: Vector) -> Points:
     )
 
 
-def position_errors(flight: Flight) -> Points:
+def position_errors(flight: FlightData) -> Points:
     """Estimated less true position of O_b in W, (n, 3) m, at every tick."""
     errors: Points = flight.on_state_ticks(Estimate)["p_WB"] - flight.state["p_WB"]
     return errors
 
 
-def moving_over_hovering(flight: Flight) -> float:
+def moving_over_hovering(flight: FlightData) -> float:
     """RMS growth of the position error in motion as a multiple of that at quasi-static hover.
 
     The growth is |e(t + 1 s) − e(t)| of the error vector e over windows that follow each other
@@ -91,7 +91,7 @@ def moving_over_hovering(flight: Flight) -> float:
     return moving / hovering
 
 
-def drift_at_first_contact(flight: Flight) -> float:
+def drift_at_first_contact(flight: FlightData) -> float:
     """Distance between estimated and true position of the tool's tip at the first touch, m.
 
     p̂_WT = p̂_WB + R̂_WB p_BT with the true place p_BT of the tip on the body: what the arm's angles

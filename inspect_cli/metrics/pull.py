@@ -26,7 +26,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from inspect_cli.metrics.flight import Flight, NotMeasured, largest, mean
+from inspect_cli.metrics.flight import FlightData, NotMeasured, largest, mean
 from inspect_cli.metrics.geometry import attitude_angle, direction_angle
 from inspect_cli.records import TrueDisturbance
 from inspect_cli.spatial.arrays import Points, Structured, Vector
@@ -115,7 +115,7 @@ class Pull:
         return largest(np.abs(np.arctan2(ahead[:, 1], ahead[:, 0])))
 
 
-def pulls(flight: Flight) -> list[Pull]:
+def pulls(flight: FlightData) -> list[Pull]:
     """The pulls of a flight in order of time.
 
     Raises:
@@ -145,7 +145,7 @@ def _pull(state: Structured, reference: Structured, force_W: Points) -> Pull:
     return Pull(state, force_W, apart - apart[0], turn)
 
 
-def _each(flight: Flight, of_pull: Callable[[Pull], float]) -> Vector:
+def _each(flight: FlightData, of_pull: Callable[[Pull], float]) -> Vector:
     return np.array([of_pull(pull) for pull in pulls(flight)])
 
 
@@ -161,63 +161,63 @@ def _ratio(above: float, below: float, what: str) -> float:
     return above / below
 
 
-def force_peak(flight: Flight) -> float:
+def force_peak(flight: FlightData) -> float:
     """The largest force of the cord over all pulls, N."""
     return largest(_each(flight, lambda pull: pull.peak))
 
 
-def angle_to_x_B_deg(flight: Flight) -> float:
+def angle_to_x_B_deg(flight: FlightData) -> float:
     """The largest angle between the cord's force and ±x_B above half of a pull's peak, degrees."""
     return float(np.degrees(largest(_each(flight, lambda pull: pull.angle_to_x_B))))
 
 
-def displacement_max(flight: Flight) -> float:
+def displacement_max(flight: FlightData) -> float:
     """The largest distance of O_b from where it was when a pull began, m."""
     return largest(_each(flight, lambda pull: largest(np.linalg.norm(pull.displacement, axis=1))))
 
 
-def displacement_along(flight: Flight) -> float:
+def displacement_along(flight: FlightData) -> float:
     """Of the pulls' displacements along their force the least, m."""
     return -largest(-_each(flight, lambda pull: pull.along))
 
 
-def displacement_z(flight: Flight) -> float:
+def displacement_z(flight: FlightData) -> float:
     """The largest displacement up or down, m."""
     return largest(_each(flight, lambda pull: pull.upwards))
 
 
-def attitude_motion(flight: Flight) -> float:
+def attitude_motion(flight: FlightData) -> float:
     """The largest motion of the tip by the body's rotation, m."""
     return largest(_each(flight, lambda pull: pull.attitude_motion))
 
 
-def along_over_z(flight: Flight) -> float:
+def along_over_z(flight: FlightData) -> float:
     """Displacement along the force over that in z; of the pulls the least."""
     return -largest(-_each(flight, lambda pull: _ratio(pull.along, pull.upwards, "motion in z")))
 
 
-def along_over_attitude(flight: Flight) -> float:
+def along_over_attitude(flight: FlightData) -> float:
     """Displacement along the force over the tip's motion by rotation; of the pulls the least."""
     return -largest(
         -_each(flight, lambda pull: _ratio(pull.along, pull.attitude_motion, "rotation"))
     )
 
 
-def metres_per_newton(flight: Flight) -> float:
+def metres_per_newton(flight: FlightData) -> float:
     """Displacement along the force over the peak force, mean over the pulls, m/N."""
     return mean(_each(flight, lambda pull: pull.along / pull.peak))
 
 
-def torque_peak(flight: Flight) -> float:
+def torque_peak(flight: FlightData) -> float:
     """The cord's largest torque about z_B through O_b, N·m."""
     return largest(_each(flight, lambda pull: pull.torque))
 
 
-def yaw_max(flight: Flight) -> float:
+def yaw_max(flight: FlightData) -> float:
     """The largest yaw away from where a pull began, rad."""
     return largest(_each(flight, lambda pull: pull.yaw))
 
 
-def yaw_per_nm(flight: Flight) -> float:
+def yaw_per_nm(flight: FlightData) -> float:
     """Largest yaw over largest torque about z_B, mean over the pulls, rad/(N·m)."""
     return mean(_each(flight, lambda pull: _ratio(pull.yaw, pull.torque, "torque about z_B")))

@@ -7,7 +7,7 @@ from functools import partial
 from typing import TYPE_CHECKING
 
 from inspect_cli.log.rasters import TrueRaster
-from inspect_cli.metrics.flight import Flight, NotMeasured
+from inspect_cli.metrics.flight import FlightData, NotMeasured
 from inspect_cli.metrics.instruments import INSTRUMENTS
 from inspect_cli.metrics.planned_cells import planned_cells
 from inspect_cli.metrics.points import points_read_by
@@ -26,7 +26,7 @@ AssessAll = Callable[[Sequence[PointResult]], "tuple[Assessed, ...]"]
 ScoreAll = Callable[[Sequence[PointResult]], Scoring | None]
 
 
-def channels_of(flight: Flight, needs: Iterable[type[Record]]) -> tuple[type[Record], ...]:
+def channels_of(flight: FlightData, needs: Iterable[type[Record]]) -> tuple[type[Record], ...]:
     """The channels of a log that a metric needs (``MetricSpec.needs``).
 
     A plan that reads nothing is taken for one that reads with the first instrument.
@@ -37,12 +37,12 @@ def channels_of(flight: Flight, needs: Iterable[type[Record]]) -> tuple[type[Rec
     return tuple(record for records in each for record in records)
 
 
-def has_readings(flight: Flight) -> bool:
+def has_readings(flight: FlightData) -> bool:
     """Whether the log has a channel of readings."""
     return any(flight.log.rows(kind) is not None for kind in channels_of(flight, [PointReading]))
 
 
-def point_results(flight: Flight) -> tuple[PointResult, ...]:
+def point_results(flight: FlightData) -> tuple[PointResult, ...]:
     """One result for each target of the plan that is read, in the plan's order."""
     found: dict[int, PointResult] = {}
     for kind in flight.plan.instruments:
@@ -50,18 +50,18 @@ def point_results(flight: Flight) -> tuple[PointResult, ...]:
     return tuple(found[index] for index in sorted(found))
 
 
-def points_total(flight: Flight) -> float:
+def points_total(flight: FlightData) -> float:
     """Number of points that the plan wants read."""
     return float(len(flight.read_targets))
 
 
-def points_valid(flight: Flight) -> float:
+def points_valid(flight: FlightData) -> float:
     """Number of points with a valid reading."""
     _ = flight.read_targets  # without them there is nothing to count
     return float(sum(point.valid for point in point_results(flight)))
 
 
-def valid_share(flight: Flight) -> float:
+def valid_share(flight: FlightData) -> float:
     """Valid readings as a share of the planned points."""
     return points_valid(flight) / points_total(flight)
 
@@ -128,7 +128,7 @@ def score_points(
     return Scoring(surfaces=tuple(one for scoring in scorings for one in scoring.surfaces))
 
 
-def scoring_of(flight: Flight) -> Scoring:
+def scoring_of(flight: FlightData) -> Scoring:
     """The scoring of one flight.
 
     Raises:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from inspect_cli.metrics.contact import SETTLE_S
-from inspect_cli.metrics.flight import TOUCH_N, Dwell, Flight, NotMeasured
+from inspect_cli.metrics.flight import TOUCH_N, Dwell, FlightData, NotMeasured
 from inspect_cli.spatial.arrays import Vector
 
 TREND_S = 1.0
@@ -14,7 +14,7 @@ STILL_N = TOUCH_N
 """Amplitudes below that are not told from rest."""
 
 
-def oscillation_growth(flight: Flight) -> float:
+def oscillation_growth(flight: FlightData) -> float:
     """Largest ratio of the force's oscillation in the second half of a dwell to the first half.
 
     The true normal force of each dwell, from 1 s after its first touch, less its moving mean over
@@ -32,7 +32,7 @@ def oscillation_growth(flight: Flight) -> float:
     return max(known)
 
 
-def residual_variation(flight: Flight) -> float:
+def residual_variation(flight: FlightData) -> float:
     """Worst coefficient of variation (σ / mean) of the true normal force in a dwell's last 2 s.
 
     Raises:
@@ -43,7 +43,7 @@ def residual_variation(flight: Flight) -> float:
     return float(max(np.std(force[d.steady]) / np.mean(force[d.steady]) for d in dwells))
 
 
-def _planned_dwells(flight: Flight) -> list[Dwell]:
+def _planned_dwells(flight: FlightData) -> list[Dwell]:
     """The dwell of every contact; a contact that failed must not leave the word to the others."""
     missed = [t.label for t in flight.contact_targets if t.index not in flight.dwells]
     if missed:
@@ -51,7 +51,7 @@ def _planned_dwells(flight: Flight) -> list[Dwell]:
     return [flight.dwells[target.index] for target in flight.contact_targets]
 
 
-def _growth(flight: Flight, dwell: Dwell) -> float | None:
+def _growth(flight: FlightData, dwell: Dwell) -> float | None:
     times = flight.state["t_s"][dwell.rows]
     settled = times > times[0] + SETTLE_S
     wobble = _fast_part(times[settled], flight.state["f_normal"][dwell.rows][settled])

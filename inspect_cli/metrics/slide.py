@@ -25,7 +25,7 @@ import numpy as np
 
 from inspect_cli.metrics.contact import gaps_of, held_rows
 from inspect_cli.metrics.drawing import along_surface, slide_rows
-from inspect_cli.metrics.flight import Flight, NotMeasured, Rows, largest, mean
+from inspect_cli.metrics.flight import FlightData, NotMeasured, Rows, largest, mean
 from inspect_cli.metrics.geometry import direction_angle, rotation_vectors, turned_by
 from inspect_cli.metrics.guidance import NO_SURFACE
 from inspect_cli.records import TrueContact
@@ -49,7 +49,7 @@ class Slide:
     """Those of the translation."""
 
 
-def followed_targets(flight: Flight) -> list[Target]:
+def followed_targets(flight: FlightData) -> list[Target]:
     """The targets along which the tool follows what the camera sees.
 
     Raises:
@@ -61,7 +61,7 @@ def followed_targets(flight: Flight) -> list[Target]:
     return found
 
 
-def slides(flight: Flight) -> list[Slide]:
+def slides(flight: FlightData) -> list[Slide]:
     """Every slide of the flight.
 
     Raises:
@@ -73,7 +73,7 @@ def slides(flight: Flight) -> list[Slide]:
     ]
 
 
-def moving_rows(flight: Flight, target: Target) -> Rows:
+def moving_rows(flight: FlightData, target: Target) -> Rows:
     """The rows of a target's translation.
 
     Raises:
@@ -91,16 +91,16 @@ def moving_rows(flight: Flight, target: Target) -> Rows:
     return moving
 
 
-def _each(flight: Flight, of_slide: Callable[[Flight, Slide], float]) -> Vector:
+def _each(flight: FlightData, of_slide: Callable[[FlightData, Slide], float]) -> Vector:
     return np.array([of_slide(flight, slide) for slide in slides(flight)])
 
 
-def distance(flight: Flight) -> float:
+def distance(flight: FlightData) -> float:
     """Way of the true tip along the surface in contact during the translation, m."""
     return mean(_each(flight, _distance))
 
 
-def _distance(flight: Flight, slide: Slide) -> float:
+def _distance(flight: FlightData, slide: Slide) -> float:
     rows = slide.moving
     n_W = flight.on_state_ticks(TrueContact)["n_W"][rows[:-1]]
     steps = along_surface(np.diff(flight.state["p_WT"][rows], axis=0), n_W)
@@ -109,38 +109,38 @@ def _distance(flight: Flight, slide: Slide) -> float:
     return float(np.sum(np.linalg.norm(steps[held], axis=1)))
 
 
-def chord(flight: Flight) -> float:
+def chord(flight: FlightData) -> float:
     """Distance between the true tip's places at both ends of the translation, m."""
 
-    def length(flight: Flight, slide: Slide) -> float:
+    def length(flight: FlightData, slide: Slide) -> float:
         tip_W = flight.state["p_WT"][slide.moving]
         return float(np.linalg.norm(tip_W[-1] - tip_W[0]))
 
     return mean(_each(flight, length))
 
 
-def speed_mean(flight: Flight) -> float:
+def speed_mean(flight: FlightData) -> float:
     """The distance over the time of the translation, m/s."""
 
-    def speed(flight: Flight, slide: Slide) -> float:
+    def speed(flight: FlightData, slide: Slide) -> float:
         times = flight.state["t_s"][slide.moving]
         return _distance(flight, slide) / float(times[-1] - times[0])
 
     return mean(_each(flight, speed))
 
 
-def axis_error_mean_deg(flight: Flight) -> float:
+def axis_error_mean_deg(flight: FlightData) -> float:
     """Mean angle between z_T and the true inward normal from first touch to release, degrees."""
     rows = [flight.contact_rows(target.index) for target in followed_targets(flight)]
     return _axis_error_deg(flight, np.concatenate(rows))
 
 
-def axis_error_moving_deg(flight: Flight) -> float:
+def axis_error_moving_deg(flight: FlightData) -> float:
     """The same during the translations alone."""
     return _axis_error_deg(flight, np.concatenate([slide.moving for slide in slides(flight)]))
 
 
-def _axis_error_deg(flight: Flight, rows: Rows) -> float:
+def _axis_error_deg(flight: FlightData, rows: Rows) -> float:
     contact = flight.on_state_ticks(TrueContact)[rows]
     known = contact["surface"] != NO_SURFACE
     z_T = np.tile([0.0, 0.0, 1.0], (int(np.count_nonzero(known)), 1))
@@ -148,24 +148,24 @@ def _axis_error_deg(flight: Flight, rows: Rows) -> float:
     return float(np.degrees(mean(direction_angle(axes_W, -contact["n_W"][known]))))
 
 
-def rotation_xz_max(flight: Flight) -> float:
+def rotation_xz_max(flight: FlightData) -> float:
     """Largest rotation of the true tool about x_T or z_T during the translation, rad."""
     turns = _each(flight, lambda f, slide: largest(np.abs(turned(f, slide)[:, (0, 2)])))
     return largest(turns)
 
 
-def rotation_y(flight: Flight) -> float:
+def rotation_y(flight: FlightData) -> float:
     """Largest rotation of the true tool about y_T during the translation, rad."""
     return largest(_each(flight, lambda f, slide: largest(np.abs(turned(f, slide)[:, 1]))))
 
 
-def turned(flight: Flight, slide: Slide) -> Points:
+def turned(flight: FlightData, slide: Slide) -> Points:
     """Log(R_0ᵀ R) of the true tool in the translation, (n, 3) rad about x_T, y_T, z_T."""
     attitudes = flight.state["q_WT"][slide.moving]
     return rotation_vectors(np.tile(attitudes[0], (len(attitudes), 1)), attitudes)
 
 
-def gaps(flight: Flight) -> float:
+def gaps(flight: FlightData) -> float:
     """Gaps over 50 ms below 0.1 N between first touch and release of the slides.
 
     Raises:

@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass
 
-from inspect_cli.metrics.flight import Flight
-from inspect_cli.metrics.joined import NOT_JOINED, Joined
+from inspect_cli.metrics.aggregation import NOT_JOINED, Joined
+from inspect_cli.metrics.flight import FlightData
 from inspect_cli.records import Record
 
 
@@ -32,7 +32,7 @@ class MetricSpec:
     """
 
     unit: str
-    function: Callable[[Flight], float]
+    function: Callable[[FlightData], float]
     meaning: str
     needs: tuple[type[Record], ...]
     joined: Joined = NOT_JOINED

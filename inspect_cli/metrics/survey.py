@@ -6,13 +6,13 @@ from collections.abc import Iterable, Sequence
 from typing import TYPE_CHECKING
 
 from inspect_cli.metrics.acceptance import answer_all
+from inspect_cli.metrics.aggregation import Joined
 from inspect_cli.metrics.assessed import with_uncertainty
 from inspect_cli.metrics.catalogue import METRICS
 from inspect_cli.metrics.catalogue_assessment import assessment_metrics
 from inspect_cli.metrics.catalogue_scoring import metrics_of
 from inspect_cli.metrics.evaluation import Evaluation
 from inspect_cli.metrics.instruments import INSTRUMENTS
-from inspect_cli.metrics.joined import Joined
 from inspect_cli.metrics.readings import AssessAll, ScoreAll
 from inspect_cli.schema.mission import Acceptance
 from inspect_cli.schema.plan import Target

@@ -26,9 +26,9 @@ from scipy.ndimage import label
 
 from inspect_cli.assessment.classes import sustains_corrosion
 from inspect_cli.log.rasters import TrueRaster
-from inspect_cli.metrics.cells import Cells, cells_around, weighed
 from inspect_cli.metrics.flight import NotMeasured
 from inspect_cli.metrics.planned_cells import PlannedCells, widths_of
+from inspect_cli.metrics.sample_areas import Cells, cells_around, weighed
 from inspect_cli.schema.result import PointResult
 from inspect_cli.schema.scoring import (
     UNREAD,

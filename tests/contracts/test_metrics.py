@@ -11,7 +11,7 @@ from inspect_cli.commands.plan import plan_loaded, vehicle_of
 from inspect_cli.log.reader import RunLog
 from inspect_cli.metrics.catalogue import METRICS
 from inspect_cli.metrics.evaluate import measure
-from inspect_cli.metrics.flight import Flight
+from inspect_cli.metrics.flight import FlightData
 from inspect_cli.records import CORE_RECORDS, PointReading
 from inspect_cli.schema.loading import load_mission
 
@@ -65,7 +65,7 @@ def test_its_name_ends_in_its_unit(name: str) -> None:
 @pytest.mark.parametrize("name", METRICS)
 def test_it_is_not_measured_in_a_log_without_channels(name: str, without_channels: RunLog) -> None:
     spec = METRICS[name]
-    metric = measure(spec, Flight(without_channels))
+    metric = measure(spec, FlightData(without_channels))
     assert metric.unit == spec.unit
     if not spec.needs:
         assert metric.value is not None, "what needs no channel is told by the plan"

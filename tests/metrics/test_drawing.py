@@ -12,7 +12,7 @@ from synthetic import SyntheticFlight, nine_points
 
 from inspect_cli.metrics.drawing import repeats
 from inspect_cli.metrics.evaluate import evaluate
-from inspect_cli.metrics.flight import Flight
+from inspect_cli.metrics.flight import FlightData
 from inspect_cli.records import Reference, State, TrueContact
 from inspect_cli.schema.result import Metric
 
@@ -46,7 +46,7 @@ def test_a_lag_in_time_counts_as_the_way_gone_meanwhile() -> None:
     state, rows = flight.rows(State), rows_of(flight, 1, Mode.SLIDE)
     late = np.maximum(np.arange(len(rows)) - 10, 0)  # 0.1 s at 0.1 m/s: 10 mm while it moves
     state["p_WT"][rows] = state["p_WT"][rows][late]
-    repeat = repeats(Flight(flight.log()))[0]
+    repeat = repeats(FlightData(flight.log()))[0]
     on_the_way = (repeat.arc_m > 0.02) & (repeat.arc_m < WAY_M - 1e-9)
     assert repeat.apart_m[on_the_way] == pytest.approx(0.010, rel=1e-6)
     assert repeat.arc_m[-1] == pytest.approx(WAY_M, rel=1e-9)
@@ -68,7 +68,7 @@ def test_the_worst_pair_of_the_worst_part_counts() -> None:
     flight = strokes(trials=3, parts=2)  # targets: trial 0 parts 0, 1; trial 1 ...
     shift(flight, 1, [0.0, 0.001, 0.0])
     shift(flight, 3, [0.0, -0.003, 0.0])
-    assert len(repeats(Flight(flight.log()))) == 6
+    assert len(repeats(FlightData(flight.log()))) == 6
     assert value(flight, "drawing.repeat_rms_m") == pytest.approx(0.004, rel=1e-9)
 
 

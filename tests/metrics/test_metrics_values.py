@@ -13,7 +13,7 @@ from synthetic import SyntheticFlight, nine_points
 
 from inspect_cli.metrics.catalogue import METRICS
 from inspect_cli.metrics.evaluate import evaluate
-from inspect_cli.metrics.flight import Flight
+from inspect_cli.metrics.flight import FlightData
 from inspect_cli.metrics.readings import channels_of
 from inspect_cli.records import (
     Command,
@@ -148,7 +148,7 @@ def test_a_missing_channel_is_not_measured(flight: SyntheticFlight, record: type
     log = flight.log()
     metrics = evaluate(log).metrics
     for name, spec in CALM.items():
-        if record in channels_of(Flight(log), spec.needs):
+        if record in channels_of(FlightData(log), spec.needs):
             assert metrics[name].value is None
             assert record.topic in metrics[name].why
         elif name in EXPECTED:

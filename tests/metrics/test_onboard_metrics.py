@@ -10,7 +10,7 @@ from synthetic import SyntheticFlight, nine_points
 
 from inspect_cli.commands.study_force import lag_contact_rmse
 from inspect_cli.metrics.evaluate import evaluate
-from inspect_cli.metrics.flight import Flight
+from inspect_cli.metrics.flight import FlightData
 from inspect_cli.metrics.force_sensor import low_pass
 from inspect_cli.metrics.geometry import rotation_vectors, turned_back_by, turned_by
 from inspect_cli.metrics.pose_error import turned_frames
@@ -151,7 +151,7 @@ def test_the_lag_alone_errs_by_what_decays(flight: SyntheticFlight) -> None:
     left = 5.0 * np.exp(-gain * (times - times[0]))[touching]
     expected = float(np.sqrt(np.mean(left**2)))
     assert expected > 0.5
-    assert lag_contact_rmse(Flight(flight.log())) == pytest.approx(expected, rel=1e-6)
+    assert lag_contact_rmse(FlightData(flight.log())) == pytest.approx(expected, rel=1e-6)
 
 
 def test_the_estimated_attitude_turns_the_estimated_force(flight: SyntheticFlight) -> None:

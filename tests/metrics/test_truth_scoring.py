@@ -16,11 +16,11 @@ from inspect_cli.log.names import SPECIMEN
 from inspect_cli.log.rasters import encoded
 from inspect_cli.metrics.assessed import assess_points
 from inspect_cli.metrics.catalogue_scoring import SCORES, metrics_of
-from inspect_cli.metrics.cells import cells_around, in_squares, nearest_to, weighed
 from inspect_cli.metrics.evaluate import evaluate
 from inspect_cli.metrics.flight import NotMeasured
 from inspect_cli.metrics.planned_cells import PlannedCells, planned_cells
 from inspect_cli.metrics.readings import scorer
+from inspect_cli.metrics.sample_areas import cells_around, in_squares, nearest_to, weighed
 from inspect_cli.metrics.survey import joined_result
 from inspect_cli.metrics.truth_scoring import Judged, score, score_surface
 from inspect_cli.planning.planner import make_plan

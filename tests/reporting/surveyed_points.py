@@ -10,9 +10,9 @@ from numpy.typing import ArrayLike
 from inspect_cli.assessment.assess import assess
 from inspect_cli.assessment.classes import astm_class, combined_verdict
 from inspect_cli.assessment.readings import Readings
+from inspect_cli.assessment.surface_findings import SurfaceFindings
 from inspect_cli.commands.surface_maps import with_map
-from inspect_cli.reporting.half_cell.points import ReadPoint
-from inspect_cli.reporting.half_cell.surface_findings import SurfaceFindings
+from inspect_cli.reporting.content.read_points import ReadPoint
 from inspect_cli.schema.assessment import Basis
 from inspect_cli.schema.result import PointResult
 

@@ -13,10 +13,10 @@ from modes import TABLE, Mode
 from report_pages import Reported, decoded, trace
 
 from inspect_cli.records import Estimate, InvalidReason, Reference, State
+from inspect_cli.reporting.content.read_points import read_points
 from inspect_cli.reporting.figures.rows import attitude_difference_mrad, held_at, roll_pitch_yaw_deg
 from inspect_cli.reporting.figures.timeline import BUCKETS, thinned, timeline_of
 from inspect_cli.reporting.flight.scene import patch_mesh
-from inspect_cli.reporting.half_cell.points import read_points
 from inspect_cli.reporting.half_cell.potential_scale import (
     colour_scale,
     colours,

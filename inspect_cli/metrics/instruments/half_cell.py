@@ -9,10 +9,10 @@ import numpy as np
 
 from inspect_cli.assessment.classes import astm_class, combined_verdict, resistivity
 from inspect_cli.assessment.electrodes import as_evaluated, to_standard
+from inspect_cli.metrics.aggregation import GREATEST, LEAST, SUM
 from inspect_cli.metrics.assessed import assess_points, basis_on
-from inspect_cli.metrics.flight import Flight, NotMeasured
+from inspect_cli.metrics.flight import FlightData, NotMeasured
 from inspect_cli.metrics.instrument import Instrument, PointReader, Values
-from inspect_cli.metrics.joined import GREATEST, LEAST, SUM
 from inspect_cli.metrics.points import contact_points, dwell_on, finite
 from inspect_cli.metrics.spec import MetricSpec, Tolerance
 from inspect_cli.metrics.truth_scoring import score
@@ -31,7 +31,7 @@ class TrueSpecimen:
     resistivity_ohm_m: float | None = None
 
 
-def complete(flight: Flight, target: Target, point: PointResult, values: Values) -> PointResult:
+def complete(flight: FlightData, target: Target, point: PointResult, values: Values) -> PointResult:
     """The point with potential and resistance as evaluated, and with what they are in truth."""
     probe = probe_of(flight)
     basis = basis_on(flight.mission, target.surface, probe.electrode)
@@ -56,7 +56,7 @@ def complete(flight: Flight, target: Target, point: PointResult, values: Values)
     return point.model_copy(update=found)
 
 
-def probe_of(flight: Flight) -> HalfCellModel:
+def probe_of(flight: FlightData) -> HalfCellModel:
     """The half-cell that took the flight's readings.
 
     Raises:
@@ -68,7 +68,7 @@ def probe_of(flight: Flight) -> HalfCellModel:
     return probe
 
 
-def true_specimen(flight: Flight, target: Target) -> TrueSpecimen:
+def true_specimen(flight: FlightData, target: Target) -> TrueSpecimen:
     """What was so at a target, averaged over the last 2 s of its dwell."""
     dwell = dwell_on(flight, target)
     if dwell is None or flight.log.rows(TrueContact) is None:
@@ -99,7 +99,7 @@ def reasons(probe: HalfCellModel) -> Mapping[float, str]:
 READER = PointReader("half_cell", Reading, complete, reasons)
 
 
-def false_valid_points(flight: Flight) -> float:
+def false_valid_points(flight: FlightData) -> float:
     """Number of readings that count although the tool did not truly press hard enough.
 
     The true normal force, mean over the last 2 s of the dwell, is below the least force of the
@@ -112,7 +112,7 @@ def false_valid_points(flight: Flight) -> float:
     return float(sum(point.valid and (point.true_force_n or 0.0) < least_n for point in points))
 
 
-def potential_error_max(flight: Flight) -> float:
+def potential_error_max(flight: FlightData) -> float:
     """Largest difference, V, of an accepted potential from the specimen's at the true contact."""
     return max(
         1e-3 * abs(point.potential_mv - point.true_potential_mv)
@@ -121,7 +121,7 @@ def potential_error_max(flight: Flight) -> float:
     )
 
 
-def resistance_error_rel_max(flight: Flight) -> float:
+def resistance_error_rel_max(flight: FlightData) -> float:
     """Largest |R K / ρ − 1| of an accepted resistance R against the specimen's resistivity ρ."""
     errors = [
         abs(point.resistivity_ohm_m / point.true_resistivity_ohm_m - 1.0)
@@ -133,7 +133,7 @@ def resistance_error_rel_max(flight: Flight) -> float:
     return max(errors)
 
 
-def _comparable(flight: Flight) -> list[PointResult]:
+def _comparable(flight: FlightData) -> list[PointResult]:
     points = [point for point in contact_points(READER, flight) if point.valid]
     if not points:
         raise NotMeasured("no reading is valid")
@@ -143,12 +143,12 @@ def _comparable(flight: Flight) -> list[PointResult]:
     return points
 
 
-def potential_min(flight: Flight) -> float:
+def potential_min(flight: FlightData) -> float:
     """Least potential, V, of the valid readings."""
     return _most_negative(flight)[0]
 
 
-def potential_min_point(flight: Flight) -> float:
+def potential_min_point(flight: FlightData) -> float:
     """Which of the points, k = 1, 2, … in the plan's order, has the least valid potential.
 
     Raises NotMeasured where that is in the passive class: it would be noise that tells.
@@ -159,7 +159,7 @@ def potential_min_point(flight: Flight) -> float:
     return float(point)
 
 
-def _most_negative(flight: Flight) -> tuple[float, int]:
+def _most_negative(flight: FlightData) -> tuple[float, int]:
     """(V, k) of the valid reading with the least potential."""
     read = [
         (1e-3 * point.potential_mv, k)
@@ -171,12 +171,12 @@ def _most_negative(flight: Flight) -> tuple[float, int]:
     return min(read)
 
 
-def active_points_count(flight: Flight) -> float:
+def active_points_count(flight: FlightData) -> float:
     """Number of points with the combined verdict active."""
     return float(sum(point.corrosion == "active" for point in contact_points(READER, flight)))
 
 
-def active_mask(flight: Flight) -> float:
+def active_mask(flight: FlightData) -> float:
     """Which points are active, as one number: Σ 2^(k−1) over active points k = 1, 2, ….
 
     Points are numbered in the plan's order; exactly points 2 and 3 give 2 + 4 = 6.
@@ -185,7 +185,7 @@ def active_mask(flight: Flight) -> float:
     return float(sum(2**k for k, point in enumerate(points) if point.corrosion == "active"))
 
 
-def map_mismatches(flight: Flight) -> float:
+def map_mismatches(flight: FlightData) -> float:
     """Number of points whose combined verdict differs from the specimen's by the same rule.
 
     The specimen's is taken at the true contact. A point without a valid reading, or that was

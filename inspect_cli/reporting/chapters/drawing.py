@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from inspect_cli.metrics.flight import Flight
+from inspect_cli.metrics.flight import FlightData
 from inspect_cli.reporting.chapters.chapter import Chapter
 from inspect_cli.reporting.chapters.material import Material
 from inspect_cli.reporting.chapters.shared import (
@@ -22,7 +22,7 @@ from inspect_cli.reporting.words.text import Amount, Text, count, number, say, s
 
 def _blocks(material: Material) -> list[Block]:
     def shown() -> Iterator[Block]:
-        flight, drawings = Flight(material.log), drawings_of(material.plan)
+        flight, drawings = FlightData(material.log), drawings_of(material.plan)
         for k, drawing in enumerate(drawings, 1):
             if len(drawings) > 1:
                 yield Heading(say("Drawing {n}", n=number(k, 0)))

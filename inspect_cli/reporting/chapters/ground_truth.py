@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from inspect_cli.metrics.flight import Flight
+from inspect_cli.metrics.flight import FlightData
 from inspect_cli.reporting.chapters.chapter import Chapter
 from inspect_cli.reporting.chapters.material import Material
 from inspect_cli.reporting.chapters.shared import metric_box
@@ -20,7 +20,7 @@ def _blocks(material: Material) -> list[Block]:
     return [
         *drawn(figures[:1]),
         *drawn(figures[1:], side_by_side=True),
-        *drawn(force_figure(Flight(material.log), material.timeline)),
+        *drawn(force_figure(FlightData(material.log), material.timeline)),
         *rmse_table(material.result),
         *metrics_table(caption, material.result, CHAPTER.metric_groups),
     ]

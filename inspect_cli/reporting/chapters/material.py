@@ -7,13 +7,13 @@ from dataclasses import dataclass
 from functools import cached_property
 from typing import Protocol
 
+from inspect_cli.assessment.surface_findings import SurfaceFindings
 from inspect_cli.log.reader import RunLog
 from inspect_cli.records import Reference
+from inspect_cli.reporting.content.read_points import ReadPoint, read_points
 from inspect_cli.reporting.figures.rows import rows_of
 from inspect_cli.reporting.figures.timeline import Timeline, timeline_of
 from inspect_cli.reporting.flight.mission_profile import MissionProfile, mission_profile
-from inspect_cli.reporting.half_cell.points import ReadPoint, read_points
-from inspect_cli.reporting.half_cell.surface_findings import SurfaceFindings
 from inspect_cli.schema.coverage import CoveragePlan
 from inspect_cli.schema.plan import Plan
 from inspect_cli.schema.result import Result

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from inspect_cli.metrics.flight import Flight
+from inspect_cli.metrics.flight import FlightData
 from inspect_cli.reporting.chapters.chapter import Chapter
 from inspect_cli.reporting.chapters.material import Material
 from inspect_cli.reporting.chapters.shared import (
@@ -24,7 +24,7 @@ def _blocks(material: Material) -> list[Block]:
     caption = say("Pulls at the cord; of several the least favourable.")
     return [
         *drawn(pull_figures(log, pull_phases(log)), side_by_side=True),
-        *drawn_or_reason(lambda: [pull_table(Flight(log))]),
+        *drawn_or_reason(lambda: [pull_table(FlightData(log))]),
         *metrics_table(caption, material.result, CHAPTER.metric_groups),
     ]
 

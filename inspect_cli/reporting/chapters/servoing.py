@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from inspect_cli.metrics.flight import Flight
+from inspect_cli.metrics.flight import FlightData
 from inspect_cli.reporting.chapters.chapter import Chapter
 from inspect_cli.reporting.chapters.material import Material
 from inspect_cli.reporting.chapters.shared import (
@@ -21,7 +21,7 @@ from inspect_cli.reporting.words.text import Text, number, say, significant, tog
 
 def _blocks(material: Material) -> list[Block]:
     def shown() -> Iterator[Block]:
-        flight = Flight(material.log)
+        flight = FlightData(material.log)
         for k, slide in enumerate(slides_of(flight), 1):
             yield from drawn(servoing_figures(flight, k, slide))
 

@@ -7,12 +7,10 @@ from collections.abc import Iterable
 from inspect_cli.reporting.chapters.chapter import Chapter
 from inspect_cli.reporting.chapters.material import Material
 from inspect_cli.reporting.content.blocks import Cover
+from inspect_cli.reporting.content.opening import SIGNED
 from inspect_cli.reporting.documents.summary import is_simulated
 from inspect_cli.reporting.words.recorded import recorded
 from inspect_cli.reporting.words.text import NOTHING, Badge, Text, say, separated, together
-
-SIGNED = (say("Place and date"), say("Name and signature of who answers for the evaluation"))
-"""Lines to be signed in the report of a real structure."""
 
 
 def cover(material: Material, chapters: Iterable[Chapter], title: str) -> Cover:

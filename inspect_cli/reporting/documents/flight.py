@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import replace
 
+from inspect_cli.assessment.surface_findings import SurfaceFindings
 from inspect_cli.log.reader import RunLog
 from inspect_cli.reporting.chapters.chapter import Chapter
 from inspect_cli.reporting.chapters.material import Coverage, Material, Rendered
@@ -12,7 +13,6 @@ from inspect_cli.reporting.chapters.registry import chapters
 from inspect_cli.reporting.content.blocks import Document, Section
 from inspect_cli.reporting.documents.cover import cover
 from inspect_cli.reporting.documents.summary import summary
-from inspect_cli.reporting.half_cell.surface_findings import SurfaceFindings
 from inspect_cli.reporting.words.text import say
 from inspect_cli.schema.coverage import CoveragePlan
 from inspect_cli.schema.plan import Plan

@@ -9,10 +9,11 @@ from inspect_cli.reporting.chapters.chapter import Chapter
 from inspect_cli.reporting.chapters.coverage import extent
 from inspect_cli.reporting.chapters.material import Material
 from inspect_cli.reporting.content.blocks import Block, Box, Boxes, Heading, Notes, Paragraph
+from inspect_cli.reporting.content.opening import finding
 from inspect_cli.reporting.documents.checks_table import checks_table
 from inspect_cli.reporting.words.published import SOURCE, published_of
 from inspect_cli.reporting.words.recorded import recorded
-from inspect_cli.reporting.words.text import Text, number, say, sentences, significant, strong
+from inspect_cli.reporting.words.text import Text, number, say, sentences, significant
 from inspect_cli.schema.result import Result, Status
 
 STATUS_WORDS: dict[Status, Text] = {
@@ -70,14 +71,6 @@ def _expectation(status: Status, expected: Status) -> Text:
     if status == expected:
         return say("The mission expects it to be {status}, as it was.", status=wanted)
     return say("The mission expects it to be {status}, which it was not.", status=wanted)
-
-
-def finding(statements: Sequence[Text]) -> list[Block]:
-    """The finding as one paragraph, its first sentence standing out."""
-    if not statements:
-        return []
-    first, *rest = statements
-    return [Paragraph(sentences([strong(first), *rest]), "finding")]
 
 
 def _key_figures(material: Material, chapters: Sequence[Chapter]) -> Boxes:

@@ -12,7 +12,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from inspect_cli.metrics.drawing import Repeat, repeats
-from inspect_cli.metrics.flight import Flight, NotMeasured, Rows
+from inspect_cli.metrics.flight import FlightData, NotMeasured, Rows
 from inspect_cli.records import Estimate
 from inspect_cli.reporting.figures.figure import Figure, Json, numbers
 from inspect_cli.reporting.figures.palette import REFERENCE, LineStyle, trial_style
@@ -69,7 +69,7 @@ def drawings_of(plan: Plan) -> list[int]:
     return sorted({target.stroke.drawing for target in plan.targets if target.stroke})
 
 
-def trials_of(flight: Flight, drawing: int) -> list[Trial]:
+def trials_of(flight: FlightData, drawing: int) -> list[Trial]:
     """The trials of a drawing, strokes that were never slid along left out."""
     strokes = [t for t in flight.plan.targets if t.stroke and t.stroke.drawing == drawing]
     trials = []
@@ -82,13 +82,13 @@ def trials_of(flight: Flight, drawing: int) -> list[Trial]:
     return trials
 
 
-def _sliding(flight: Flight, target: Target) -> Rows:
+def _sliding(flight: FlightData, target: Target) -> Rows:
     at_hand = flight.reference["target"] == target.index
     rows: Rows = np.flatnonzero(flight.during(Phase.CONTACT, slides=True) & at_hand)
     return rows
 
 
-def drawing_figures(flight: Flight, drawing: int) -> list[Figure]:
+def drawing_figures(flight: FlightData, drawing: int) -> list[Figure]:
     """The drawing, how far its trials lie apart, and its course over time."""
     trials = trials_of(flight, drawing)
     if not trials:
@@ -98,13 +98,13 @@ def drawing_figures(flight: Flight, drawing: int) -> list[Figure]:
     return figures
 
 
-def course_figures(flight: Flight, drawing: int) -> list[Figure]:
+def course_figures(flight: FlightData, drawing: int) -> list[Figure]:
     """Position above force, attitude error above torque, since each trial's first touch."""
     trials = trials_of(flight, drawing)
     return list(_over_time(flight, drawing, trials)) if trials else []
 
 
-def _in_the_plane(flight: Flight, drawing: int, trials: Sequence[Trial]) -> Figure:
+def _in_the_plane(flight: FlightData, drawing: int, trials: Sequence[Trial]) -> Figure:
     surface = trials[0].targets[0].surface
     prim = primitive_of(next(s.shape for s in flight.plan.surfaces if s.name == surface))
     reference = flight.reference["p_WT"]
@@ -188,7 +188,7 @@ def _path(uv: Points, style: LineStyle, *, shown: bool) -> Json:
     }
 
 
-def _apart(flight: Flight, drawing: int) -> Iterator[Figure]:
+def _apart(flight: FlightData, drawing: int) -> Iterator[Figure]:
     """How far two trials lie apart along the drawing."""
     try:
         found = [r for r in repeats(flight) if r.first.stroke and r.first.stroke.drawing == drawing]
@@ -241,7 +241,7 @@ def _trials(repeat: Repeat) -> tuple[int, int]:
     return (first.trial if first else 0, second.trial if second else 0)
 
 
-def _over_time(flight: Flight, drawing: int, trials: Sequence[Trial]) -> Iterator[Figure]:
+def _over_time(flight: FlightData, drawing: int, trials: Sequence[Trial]) -> Iterator[Figure]:
     t_s, state, reference = flight.state["t_s"], flight.state, flight.reference
     longest = max(trial.end_s(t_s) - trial.start_s(t_s) for trial in trials)
     timeline = _timeline(trials[0], t_s).within((-AROUND_S, longest + AROUND_S))

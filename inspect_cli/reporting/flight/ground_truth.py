@@ -10,7 +10,7 @@ from collections.abc import Iterator
 import numpy as np
 
 from inspect_cli.log.reader import RunLog
-from inspect_cli.metrics.flight import Flight, NotMeasured
+from inspect_cli.metrics.flight import FlightData, NotMeasured
 from inspect_cli.metrics.force_sensor import signal
 from inspect_cli.records import Estimate, Odometry, Reference, State, WallForce
 from inspect_cli.reporting.content.blocks import Block, Column, Table
@@ -99,7 +99,7 @@ def position_figure(log: RunLog, timeline: Timeline) -> Iterator[Figure]:
         )
 
 
-def force_figure(flight: Flight, timeline: Timeline) -> Iterator[Figure]:
+def force_figure(flight: FlightData, timeline: Timeline) -> Iterator[Figure]:
     """Estimated force against the sensor's, raw and filtered, along the axes of the world."""
     try:
         sensed = signal(flight)

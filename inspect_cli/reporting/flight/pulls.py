@@ -11,7 +11,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from inspect_cli.log.reader import RunLog
-from inspect_cli.metrics.flight import Flight
+from inspect_cli.metrics.flight import FlightData
 from inspect_cli.metrics.pull import Pull, pulls
 from inspect_cli.records import Estimate, Reference, State, TrueDisturbance
 from inspect_cli.reporting.content.blocks import Column, Table
@@ -162,7 +162,7 @@ def _cord_wrench(log: RunLog) -> tuple[Vector, Points] | None:
     return felt["t_s"], np.hstack(turned)
 
 
-def pull_table(flight: Flight) -> Table:
+def pull_table(flight: FlightData) -> Table:
     """One row for each pull.
 
     Raises:

@@ -8,6 +8,7 @@ import numpy as np
 
 from inspect_cli.log.reader import RunLog
 from inspect_cli.records import Estimate, State
+from inspect_cli.reporting.content.read_points import ReadPoint
 from inspect_cli.reporting.figures.figure import Figure, Json, numbers, words
 from inspect_cli.reporting.figures.palette import (
     ESTIMATE,
@@ -19,7 +20,6 @@ from inspect_cli.reporting.figures.palette import (
     LineStyle,
 )
 from inspect_cli.reporting.figures.rows import rows_of
-from inspect_cli.reporting.half_cell.points import ReadPoint
 from inspect_cli.reporting.half_cell.potential_scale import (
     colour_axis,
     colour_bar,

@@ -10,7 +10,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from inspect_cli.metrics.flight import Flight, NotMeasured, Rows
+from inspect_cli.metrics.flight import FlightData, NotMeasured, Rows
 from inspect_cli.metrics.geometry import rotation_vectors, turned_by
 from inspect_cli.metrics.slide import Slide, slides
 from inspect_cli.records import Estimate, SurfaceEstimate, TrueContact
@@ -56,7 +56,7 @@ class SideView:
         return seen
 
 
-def slides_of(flight: Flight) -> list[Slide]:
+def slides_of(flight: FlightData) -> list[Slide]:
     """The slides of the flight; none if the log does not show them."""
     try:
         return [slide for slide in slides(flight) if len(slide.contact)]
@@ -64,19 +64,19 @@ def slides_of(flight: Flight) -> list[Slide]:
         return []
 
 
-def servoing_figures(flight: Flight, number: int, slide: Slide) -> list[Figure]:
+def servoing_figures(flight: FlightData, number: int, slide: Slide) -> list[Figure]:
     """One slide from the side, and its attitude, distance and force over time."""
     return [_from_the_side(flight, number, slide), _over_time(flight, number, slide)]
 
 
-def _busy(flight: Flight, slide: Slide) -> Rows:
+def _busy(flight: FlightData, slide: Slide) -> Rows:
     """Rows from the approach to the retreat of a slide."""
     at_hand = flight.reference["target"] == slide.target.index
     rows: Rows = np.flatnonzero(flight.during(*AT_SURFACE) & at_hand)
     return rows
 
 
-def _side_view(flight: Flight, slide: Slide) -> SideView:
+def _side_view(flight: FlightData, slide: Slide) -> SideView:
     """The plane of x_T and the normal at the first touch."""
     first = slide.contact[:1]
     n_W = flight.on_state_ticks(TrueContact)["n_W"][first[0]]
@@ -90,7 +90,7 @@ def _side_view(flight: Flight, slide: Slide) -> SideView:
     return SideView(flight.state["p_WT"][first[0]], np.array([along, n_W if off else -n_W]), off)
 
 
-def _from_the_side(flight: Flight, number: int, slide: Slide) -> Figure:
+def _from_the_side(flight: FlightData, number: int, slide: Slide) -> Figure:
     view, rows = _side_view(flight, slide), _busy(flight, slide)
     state, contact = flight.state, flight.on_state_ticks(TrueContact)
     rows = rows[np.abs(contact["distance"][rows]) < NEAR_M]
@@ -143,7 +143,7 @@ def _slope(view: SideView, tracks: Sequence[Points]) -> float:
     return float(height / max(width, 1e-6))
 
 
-def _believed_tip(flight: Flight) -> Points:
+def _believed_tip(flight: FlightData) -> Points:
     """Where the tip was by the estimate of the body and the true place of the tip on it, (n, 3)."""
     state, estimate = flight.state, flight.on_state_ticks(Estimate)
     p_BT = turned_to_body(state["q_WB"], state["p_WT"] - state["p_WB"])
@@ -151,7 +151,7 @@ def _believed_tip(flight: Flight) -> Points:
     return tip_W
 
 
-def _seen(flight: Flight, slide: Slide) -> Structured | None:
+def _seen(flight: FlightData, slide: Slide) -> Structured | None:
     """The valid estimates of the surface during the contact, one every 0.2 s."""
     rows = flight.log.rows(SurfaceEstimate)
     if rows is None:
@@ -205,7 +205,7 @@ def _path(xy: Points, style: LineStyle) -> Json:
     }
 
 
-def _over_time(flight: Flight, number: int, slide: Slide) -> Figure:
+def _over_time(flight: FlightData, number: int, slide: Slide) -> Figure:
     t_s = flight.state["t_s"]
     busy = t_s[_busy(flight, slide)]
     moving, contact = t_s[slide.moving], t_s[slide.contact]
@@ -243,7 +243,7 @@ def _over_time(flight: Flight, number: int, slide: Slide) -> Figure:
     )
 
 
-def _rotations(flight: Flight, slide: Slide) -> list[Panel]:
+def _rotations(flight: FlightData, slide: Slide) -> list[Panel]:
     """Log(R_0ᵀ R_WT) of set-point and truth, R_0 the true one when the slide began, degrees."""
     state = flight.state
     conjugate = np.array([1.0, -1.0, -1.0, -1.0])
@@ -272,7 +272,7 @@ def _products(a: Points, b: Points) -> Points:
     return product
 
 
-def _distances(flight: Flight) -> Sequence[Line]:
+def _distances(flight: FlightData) -> Sequence[Line]:
     seen, true = flight.log.rows(SurfaceEstimate), flight.log.rows(TrueContact)
     lines = []
     if true is not None:

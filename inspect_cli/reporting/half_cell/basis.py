@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from inspect_cli.assessment.findings import disagreement
+from inspect_cli.assessment.surface_findings import SurfaceFindings
 from inspect_cli.reporting.content.blocks import Block, Column, Facts, Paragraph, Table
-from inspect_cli.reporting.half_cell.surface_findings import SurfaceFindings
 from inspect_cli.reporting.words.recorded import recorded
 from inspect_cli.reporting.words.text import (
     NOTHING,

@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from inspect_cli.assessment.classes import ASTM_CLASSES, millivolts
+from inspect_cli.assessment.surface_findings import SurfaceFindings
 from inspect_cli.reporting.figures.figure import Figure, Json, words
 from inspect_cli.reporting.figures.palette import ASTM_STYLES, INK, MUTED
 from inspect_cli.reporting.half_cell.places import Indices
@@ -21,7 +22,6 @@ from inspect_cli.reporting.half_cell.potential_scale import (
     class_line,
     potential_range,
 )
-from inspect_cli.reporting.half_cell.surface_findings import SurfaceFindings
 from inspect_cli.reporting.words.text import number, say, sentences
 from inspect_cli.spatial.arrays import Vector
 

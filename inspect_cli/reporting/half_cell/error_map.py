@@ -7,13 +7,13 @@ import math
 import numpy as np
 
 from inspect_cli.assessment.kriging import KrigedMap
+from inspect_cli.assessment.surface_findings import SurfaceFindings
 from inspect_cli.reporting.figures.figure import Figure, Json, numbers
 from inspect_cli.reporting.figures.palette import ERROR_STOPS, INK
 from inspect_cli.reporting.half_cell.map_captions import error_caption
 from inspect_cli.reporting.half_cell.map_frame import MAP_FRAME_PX, TALL, field_trace, frame_of
 from inspect_cli.reporting.half_cell.map_marks import MOST_MARKERS
 from inspect_cli.reporting.half_cell.potential_scale import colour_bar, lying_bar
-from inspect_cli.reporting.half_cell.surface_findings import SurfaceFindings
 from inspect_cli.reporting.words.text import number, say, together
 
 STEPS_MV = tuple(m * 10.0**power for power in (-1, 0, 1, 2) for m in (1, 2, 5))

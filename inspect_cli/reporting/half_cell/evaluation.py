@@ -7,7 +7,9 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 
+from inspect_cli.assessment.surface_findings import SurfaceFindings
 from inspect_cli.reporting.content.blocks import Block, Figures, Heading, Paragraph, drawn
+from inspect_cli.reporting.content.read_points import ReadPoint
 from inspect_cli.reporting.half_cell.basis import basis_facts, uncertainty_blocks
 from inspect_cli.reporting.half_cell.classes import (
     classes_table,
@@ -22,7 +24,6 @@ from inspect_cli.reporting.half_cell.map_frame import TALL, frame_of
 from inspect_cli.reporting.half_cell.minima import gradient_blocks, refinement_blocks
 from inspect_cli.reporting.half_cell.places import points_on, shared_range
 from inspect_cli.reporting.half_cell.point_table import points_table
-from inspect_cli.reporting.half_cell.points import ReadPoint
 from inspect_cli.reporting.half_cell.potential_map import map_figure
 from inspect_cli.reporting.half_cell.potential_statistics import (
     conditions_table,
@@ -31,7 +32,6 @@ from inspect_cli.reporting.half_cell.potential_statistics import (
 )
 from inspect_cli.reporting.half_cell.resistivity import resistivity_figure
 from inspect_cli.reporting.half_cell.scoring import scoring_blocks
-from inspect_cli.reporting.half_cell.surface_findings import SurfaceFindings
 from inspect_cli.reporting.words.text import Text, say
 from inspect_cli.schema.scoring import Scoring
 

@@ -5,11 +5,11 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Iterator, Sequence
 
 from inspect_cli.assessment.conditions import SATURATED
+from inspect_cli.assessment.surface_findings import SurfaceFindings
 from inspect_cli.reporting.content.blocks import Facts
 from inspect_cli.reporting.half_cell.basis import temperature_caveats
 from inspect_cli.reporting.half_cell.classes import area, percent
 from inspect_cli.reporting.half_cell.minima import judged
-from inspect_cli.reporting.half_cell.surface_findings import SurfaceFindings
 from inspect_cli.reporting.words.recorded import recorded
 from inspect_cli.reporting.words.text import Text, count, number, say
 from inspect_cli.schema.assessment import MixtureFindings, SurfaceAssessment

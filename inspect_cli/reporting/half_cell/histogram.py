@@ -7,6 +7,7 @@ import math
 import numpy as np
 
 from inspect_cli.assessment.classes import ASTM_CLASSES, NO_CLASS, millivolts
+from inspect_cli.assessment.surface_findings import SurfaceFindings
 from inspect_cli.reporting.figures.figure import Figure, Json
 from inspect_cli.reporting.figures.palette import ASTM_STYLES
 from inspect_cli.reporting.half_cell.population_marks import (
@@ -21,7 +22,6 @@ from inspect_cli.reporting.half_cell.potential_scale import (
     PASSIVE_ABOVE_MV,
     class_line,
 )
-from inspect_cli.reporting.half_cell.surface_findings import SurfaceFindings
 from inspect_cli.reporting.words.text import number, say, sentences
 from inspect_cli.spatial.arrays import Vector
 

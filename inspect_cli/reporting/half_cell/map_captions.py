@@ -8,10 +8,10 @@ import numpy as np
 
 from inspect_cli.assessment.hull import LARGEST_GAP
 from inspect_cli.assessment.kriging import NEIGHBOURS, KrigedMap
+from inspect_cli.assessment.surface_findings import SurfaceFindings
 from inspect_cli.assessment.variogram import Variogram
 from inspect_cli.reporting.half_cell.isolines import step_of
 from inspect_cli.reporting.half_cell.potential_scale import ACTIVE_BELOW_MV, PASSIVE_ABOVE_MV
-from inspect_cli.reporting.half_cell.surface_findings import SurfaceFindings
 from inspect_cli.reporting.words.recorded import recorded
 from inspect_cli.reporting.words.text import Text, number, say, sentences, significant
 

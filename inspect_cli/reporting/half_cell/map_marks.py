@@ -6,12 +6,12 @@ from collections.abc import Mapping, Sequence
 
 import numpy as np
 
+from inspect_cli.assessment.surface_findings import SurfaceFindings
 from inspect_cli.reporting.figures.figure import Json, words
 from inspect_cli.reporting.figures.palette import ASTM_STYLES, BLUE, INK, INVALID_STYLE
 from inspect_cli.reporting.half_cell.map_frame import MAX_WRITTEN_VALUES
 from inspect_cli.reporting.half_cell.places import Place, places_of
 from inspect_cli.reporting.half_cell.potential_scale import colours
-from inspect_cli.reporting.half_cell.surface_findings import SurfaceFindings
 from inspect_cli.reporting.words.printable import shortened
 from inspect_cli.reporting.words.text import Text, number, say, together
 

@@ -17,9 +17,9 @@ from inspect_cli.assessment.classes import (
     name_of,
 )
 from inspect_cli.assessment.readings import SAME_PLACE_DECIMALS
-from inspect_cli.reporting.half_cell.points import ReadPoint
+from inspect_cli.assessment.surface_findings import SurfaceFindings
+from inspect_cli.reporting.content.read_points import ReadPoint
 from inspect_cli.reporting.half_cell.potential_scale import potential_range, reading_text
-from inspect_cli.reporting.half_cell.surface_findings import SurfaceFindings
 from inspect_cli.reporting.words.text import Text, count, separated
 from inspect_cli.schema.assessment import AstmClass
 from inspect_cli.schema.result import Corrosion

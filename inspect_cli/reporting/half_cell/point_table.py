@@ -6,11 +6,11 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 from inspect_cli.assessment.assess import Assessed
+from inspect_cli.assessment.surface_findings import SurfaceFindings
 from inspect_cli.reporting.content.blocks import Column, Table
+from inspect_cli.reporting.content.read_points import ReadPoint
 from inspect_cli.reporting.half_cell.class_chips import class_chip
 from inspect_cli.reporting.half_cell.places import index_of_places, place_key, points_on
-from inspect_cli.reporting.half_cell.points import ReadPoint
-from inspect_cli.reporting.half_cell.surface_findings import SurfaceFindings
 from inspect_cli.reporting.words.text import (
     NOTHING,
     Chip,

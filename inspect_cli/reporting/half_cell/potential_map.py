@@ -7,6 +7,7 @@ from collections.abc import Mapping
 import numpy as np
 
 from inspect_cli.assessment.kriging import KrigedMap
+from inspect_cli.assessment.surface_findings import SurfaceFindings
 from inspect_cli.reporting.figures.figure import Figure, Json
 from inspect_cli.reporting.half_cell.isolines import isolines, step_of, values
 from inspect_cli.reporting.half_cell.map_captions import map_caption
@@ -27,7 +28,6 @@ from inspect_cli.reporting.half_cell.map_marks import (
 )
 from inspect_cli.reporting.half_cell.places import Indices, places_of, thinned_places
 from inspect_cli.reporting.half_cell.potential_scale import colour_axis, colour_bar
-from inspect_cli.reporting.half_cell.surface_findings import SurfaceFindings
 from inspect_cli.reporting.words.text import Text, number, say, together
 
 

@@ -8,9 +8,9 @@ from collections.abc import Iterable, Sequence
 from itertools import pairwise
 
 from inspect_cli.assessment.classes import ACTIVE_BELOW_V, PASSIVE_ABOVE_V
+from inspect_cli.reporting.content.read_points import ReadPoint
 from inspect_cli.reporting.figures.figure import Json, words
 from inspect_cli.reporting.figures.palette import INK, POTENTIAL_STOPS
-from inspect_cli.reporting.half_cell.points import ReadPoint
 from inspect_cli.reporting.words.recorded import recorded
 from inspect_cli.reporting.words.text import NOTHING, Text, number, say, separated, together
 

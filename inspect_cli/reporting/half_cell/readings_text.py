@@ -4,13 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 
+from inspect_cli.assessment.surface_findings import SurfaceFindings
 from inspect_cli.reporting.content.blocks import Box
+from inspect_cli.reporting.content.read_points import ReadPoint
 from inspect_cli.reporting.half_cell.findings_text import (
     area_sentences,
     gradient_and_population_sentences,
 )
-from inspect_cli.reporting.half_cell.points import ReadPoint
-from inspect_cli.reporting.half_cell.surface_findings import SurfaceFindings
 from inspect_cli.reporting.words.naming import named
 from inspect_cli.reporting.words.text import Text, count, number, say, together
 from inspect_cli.schema.result import PointResult

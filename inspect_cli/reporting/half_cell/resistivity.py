@@ -8,6 +8,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from inspect_cli.assessment.classes import SUSTAINS_CORROSION_OHM_M, is_resistivity
+from inspect_cli.assessment.surface_findings import SurfaceFindings
 from inspect_cli.reporting.figures.figure import Figure, Json, words
 from inspect_cli.reporting.figures.palette import CORROSION_STYLES, INK
 from inspect_cli.reporting.half_cell.places import Indices, Place, places_of
@@ -17,7 +18,6 @@ from inspect_cli.reporting.half_cell.potential_scale import (
     class_line,
     potential_range,
 )
-from inspect_cli.reporting.half_cell.surface_findings import SurfaceFindings
 from inspect_cli.reporting.words.text import number, say, sentences
 from inspect_cli.spatial.arrays import Points
 

@@ -10,6 +10,7 @@ from report_pages import Page, decoded, trace
 from surveyed_points import points_of, surveyed
 
 from inspect_cli.assessment.electrodes import basis_of
+from inspect_cli.assessment.surface_findings import SurfaceFindings
 from inspect_cli.pictures.render import Pictures
 from inspect_cli.reporting.chapters.pictures import caption, picture_blocks
 from inspect_cli.reporting.content.blocks import (
@@ -25,15 +26,14 @@ from inspect_cli.reporting.content.blocks import (
     Section,
     Table,
 )
+from inspect_cli.reporting.content.read_points import ReadPoint
 from inspect_cli.reporting.figures.figure import Figure
 from inspect_cli.reporting.half_cell.basis import temperature_caveats, uncertainty_blocks
 from inspect_cli.reporting.half_cell.evaluation import evaluation_blocks
 from inspect_cli.reporting.half_cell.map_marks import MOST_MARKERS
 from inspect_cli.reporting.half_cell.minima import gradient_blocks
 from inspect_cli.reporting.half_cell.point_table import sureness_of
-from inspect_cli.reporting.half_cell.points import ReadPoint
 from inspect_cli.reporting.half_cell.readings_text import findings, reading_boxes
-from inspect_cli.reporting.half_cell.surface_findings import SurfaceFindings
 from inspect_cli.reporting.paper.plots import draw
 from inspect_cli.reporting.screen.html import html
 from inspect_cli.reporting.words.language import language

@@ -16,6 +16,7 @@ from example_flights import spoil, survey
 from inspect_cli.commands.surface_maps import with_maps
 from inspect_cli.metrics.evaluate import evaluate_with_arrays
 from inspect_cli.records import InvalidReason, Reference
+from inspect_cli.reporting.content.read_points import read_points
 from inspect_cli.reporting.figures.figure import Figure, numbers, words
 from inspect_cli.reporting.figures.rows import rows_of
 from inspect_cli.reporting.figures.timeline import timeline_of
@@ -27,7 +28,6 @@ from inspect_cli.reporting.half_cell.cumulative import cumulative_figure
 from inspect_cli.reporting.half_cell.error_map import error_figure
 from inspect_cli.reporting.half_cell.histogram import histogram_figure
 from inspect_cli.reporting.half_cell.places import shared_range
-from inspect_cli.reporting.half_cell.points import read_points
 from inspect_cli.reporting.half_cell.potential_map import map_figure
 from inspect_cli.reporting.half_cell.resistivity import resistivity_figure
 from inspect_cli.reporting.paper.plot_axes import round_ticks

@@ -20,12 +20,12 @@ from inspect_cli.commands.delivery import Wanted, deliver
 from inspect_cli.commands.study import STUDIES
 from inspect_cli.commands.surface_maps import with_maps
 from inspect_cli.metrics.evaluate import evaluate_with_arrays
-from inspect_cli.metrics.flight import Flight as Logged
+from inspect_cli.metrics.flight import FlightData as Logged
 from inspect_cli.metrics.readings import point_results
 from inspect_cli.metrics.truth_scoring import NO_TRUTH
 from inspect_cli.records import InvalidReason
+from inspect_cli.reporting.content.read_points import ReadPoint
 from inspect_cli.reporting.documents.flight import report_document
-from inspect_cli.reporting.half_cell.points import ReadPoint
 from inspect_cli.reporting.screen.html import html
 from inspect_cli.reporting.studies.pitch_figures import (
     ACTIVE,

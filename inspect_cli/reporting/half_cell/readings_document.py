@@ -1,9 +1,10 @@
-"""The report of a survey that people took: the same findings, and where the readings are from."""
+"""The report of half-cell readings that people took: the same findings, and where they are from."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
 
+from inspect_cli.assessment.surface_findings import SurfaceFindings
 from inspect_cli.reporting.content.blocks import (
     Block,
     Boxes,
@@ -17,13 +18,11 @@ from inspect_cli.reporting.content.blocks import (
     Section,
     Table,
 )
-from inspect_cli.reporting.documents.cover import SIGNED
-from inspect_cli.reporting.documents.summary import finding
+from inspect_cli.reporting.content.opening import SIGNED, finding
+from inspect_cli.reporting.content.read_points import ReadPoint
 from inspect_cli.reporting.half_cell.evaluation import evaluation_blocks
 from inspect_cli.reporting.half_cell.findings_text import few_readings, reading_caveats
-from inspect_cli.reporting.half_cell.points import ReadPoint
 from inspect_cli.reporting.half_cell.readings_text import findings, reading_boxes
-from inspect_cli.reporting.half_cell.surface_findings import SurfaceFindings
 from inspect_cli.reporting.words.recorded import recorded
 from inspect_cli.reporting.words.text import Text, code, number, say, together
 from inspect_cli.schema.readings import ReadingsResult
