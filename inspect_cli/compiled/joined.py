@@ -73,27 +73,23 @@ def _add_call(module: Any, builder: Any, overload: Any, arguments: Sequence[obje
     context, about = overload.target_context, overload.fndesc
     overload.library.get_pointer_to_function(about.llvm_func_name)  # loads it
     kinds = about.argtypes
-    values = [_constant(context, builder, *pair) for pair in zip(kinds, arguments, strict=True)]
+    values = [_constant(context, *pair) for pair in zip(kinds, arguments, strict=True)]
     callee = context.declare_function(module, about)
     context.call_conv.call_function(builder, callee, about.restype, kinds, values)
 
 
-def _constant(context: Any, builder: Any, kind: Any, value: Any) -> Any:
+def _constant(context: Any, kind: Any, value: Any) -> Any:
     """An argument as Numba passes it: an array by its address, shape and strides."""
+    layout = context.get_value_type(kind)
     if isinstance(value, np.ndarray):
-        array = context.make_array(kind)(context, builder)
-        word = context.get_value_type(_NUMBA.types.intp)
-        pack = _NUMBA.core.cgutils.pack_array
-        _NUMBA.np.arrayobj.populate_array(
-            array,
-            data=_IR.Constant(word, value.ctypes.data).inttoptr(array.data.type),
-            shape=pack(builder, [_IR.Constant(word, n) for n in value.shape], word),
-            strides=pack(builder, [_IR.Constant(word, n) for n in value.strides], word),
-            itemsize=_IR.Constant(word, value.itemsize),
-            meminfo=None,
-        )
-        return array._getvalue()
+        none = _IR.Constant(layout.elements[0], None)
+        size, word = layout.elements[2], layout.elements[5].element
+        address = _IR.Constant(size, value.ctypes.data).inttoptr(layout.elements[4])
+        lengths = (_IR.Constant.literal_array([_IR.Constant(word, n) for n in numbers])
+                   for numbers in (value.shape, value.strides))  # fmt: skip
+        sizes = (_IR.Constant(size, n) for n in (value.size, value.itemsize))
+        return _IR.Constant.literal_struct([none, none, *sizes, address, *lengths])
     if isinstance(value, tuple):
-        parts = [_constant(context, builder, *part) for part in zip(kind, value, strict=True)]
-        return context.make_tuple(builder, kind, parts)
+        parts = zip(kind, value, strict=True)
+        return _IR.Constant.literal_struct([_constant(context, *part) for part in parts])
     return context.get_constant(kind, value)

@@ -81,10 +81,10 @@ class UnderSurface:
             feet_on(self.solids, self.index, self.prim, uv_m, feet)
         values = np.full((len(feet), 2), np.nan)
         active = np.zeros(len(feet), np.bool_)
-        for k, (u, v) in enumerate(feet.tolist()):
-            if not math.isnan(u):
-                values[k] = self.specimen.at(u, v)
-                active[k] = self.specimen.active(u, v)
+        there = ~np.isnan(feet[:, 0])
+        for k in np.flatnonzero(there).tolist():
+            values[k] = self.specimen.at(*feet[k].tolist())
+        active[there] = self.specimen.active(feet[there])
         return values[:, 0], values[:, 1], active
 
     def raster(self, share: float = 1.0) -> TrueRaster:

@@ -267,4 +267,4 @@ def test_a_real_study_finds_the_lag(mission: Path) -> None:
         assert log.seed == 7
     assert errors[1] < errors[0]
     assert outcome.folder == mission.parents[1] / "reports" / "sensed" / "study-force"
-    assert cli.run(["report", str(outcome.folder / fast.folder)]) == 0
+    assert cli.run(["report", str(outcome.folder / fast.folder), "--no-pictures"]) == 0

@@ -22,18 +22,30 @@ LEDGER_ROW = re.compile(r"[A-F][0-9]{1,2}(\.[a-z0-9_]+)?")
 """A paper's letter, the number of its experiment, and which of its figures."""
 
 
-def test_it_is_valid_in_an_editor(mission_file: Path) -> None:
+@pytest.fixture(scope="module")
+def editor() -> jsonschema.Draft202012Validator:
+    """What an editor checks a mission with."""
     schema = json.loads(committed_file("mission").read_text(encoding="utf-8"))
-    plain = json.loads(json.dumps(read_yaml(mission_file).plain))
-    jsonschema.Draft202012Validator(schema).validate(plain)
+    return jsonschema.Draft202012Validator(schema)
+
+
+@pytest.fixture(scope="module")
+def names(root: Path) -> set[str]:
+    """The names of all missions."""
+    return {load_mission(file).mission.name for file in (root / "missions").rglob("*.yaml")}
+
+
+def test_it_is_valid_in_an_editor(
+    mission_file: Path, editor: jsonschema.Draft202012Validator
+) -> None:
+    editor.validate(json.loads(json.dumps(read_yaml(mission_file).plain)))
 
 
 def test_it_is_named_like_its_file(mission_file: Path) -> None:
     assert load_mission(mission_file).mission.name == mission_file.stem.replace("_", "-")
 
 
-def test_its_acceptance_asks_for_what_is_measured(mission_file: Path, root: Path) -> None:
-    names = {load_mission(file).mission.name for file in (root / "missions").rglob("*.yaml")}
+def test_its_acceptance_asks_for_what_is_measured(mission_file: Path, names: set[str]) -> None:
     acceptance = load_mission(mission_file).mission.acceptance
     assert acceptance, "a mission without acceptance proves nothing"
     for entry in acceptance:

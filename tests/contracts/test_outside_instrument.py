@@ -1,24 +1,27 @@
-"""An instrument of an installed package, with its judge, its metric and its chapter.
+"""One package outside adds a row to each registry; its vehicle is flown and reported.
 
-It reads the temperature of the surface: 20 °C with 2 K less for each metre upwards.
+Its instrument, with a judge, a metric and a chapter, reads the temperature of the surface: 20 °C
+with 2 K less for each metre upwards. The rest of the package stands in ``outside_rows``.
 """
 
 from __future__ import annotations
 
-import csv
-import html
 import json
 import os
-import re
+import shutil
 import subprocess
 import sys
 from pathlib import Path
 
-import ifcopenshell
-import ifcopenshell.util.element
+import numpy as np
+import outside_rows
+import outside_shown
 import pytest
 
+from inspect_cli.errors import SchemaError
+from inspect_cli.log.reader import RunLog, read_log
 from inspect_cli.schema.campaign import builtin_root
+from inspect_cli.schema.loading import load_mission
 
 MODULES = {
     "thermometer_model": '''
@@ -129,8 +132,10 @@ CHAPTER = Chapter(
 ENTRY_POINTS = """
 [inspect_cli.sensors]
 thermometer = thermometer_model:ThermometerModel
+barometer = barometer_model:BarometerModel
 [inspect_cli.simulated_sensors]
 thermometer = thermometer_sensing:thermometer
+barometer = barometer_sensor:barometer
 [inspect_cli.judges]
 thermometer = thermometer_sensing:judging
 [inspect_cli.instruments]
@@ -140,9 +145,11 @@ temperatures = thermometer_chapter:CHAPTER
 """
 PLATFORM = """\
 schema: 1
-extends: tilt_rotor_hexarotor.yaml
+extends: survey_rotor.yaml
 name: with_thermometer
-sensors: {contact: {kind: thermometer, rate_hz: 50, settles_s: 1.0}}
+sensors:
+  contact: {kind: thermometer, rate_hz: 50, settles_s: 1.0}
+  altitude: {kind: barometer, rate_hz: 20, noise_m: 0.0}
 """
 MISSION = """\
 schema: 1
@@ -154,179 +161,178 @@ structure:
     surface:
       shape: {{kind: plane, center_m: [2.0, 0.0, 1.2], normal: [-1, 0, 0], size_m: [2, 2]}}
 tasks:
-  - contact_points: {{on: wall, at_m: [[2.0, 0.0, 1.2], [2.0, 0.1, 1.3]], dwell_s: 1.5}}
+  - tap: {{on: {surface}, at_m: [0.0, 0.0], up_m: 0.1, dwell_s: 1.5}}
     sensor: thermometer
 {more}truth:
-  structure: {{wall: {{specimen: {{model: analytic}}}}}}
+  structure: {{wall: {{specimen: {{model: slope, slope_vpm: -0.5}}}}}}
+  disturbances: [{{kind: updraught, force_n: 2.0}}]
+  faults: [{{sensor: altitude, fault: nan, start_s: 2.0, end_s: 3.0}}]
 acceptance:
   - {{metric: thermometer.mean_c, min: 17.4, max: 17.6}}
   - {{metric: contact.points_valid, min: {points}, max: {points}}}
 """
 POTENTIAL = """\
-  - contact_points: {on: wall, at_m: [[2.0, 0.2, 1.2]], dwell_s: 2}
+  - contact_points: {on: wall, at_m: [[2.0, -0.1, 1.2]], dwell_s: 2}
     sensor: half_cell
 """
-MISSIONS = {
-    "both": MISSION.format(name="both", more=POTENTIAL, points=3),
-    "warm": MISSION.format(name="warm", more="", points=2),
-}
-"""One reads with both instruments, one with that of the package alone."""
 
 
-@pytest.fixture
-def folder(tmp_path: Path) -> Path:
+def mission(name: str, surface: str = "wall", *, potential: bool = True) -> str:
+    """A mission that reads with the instrument of the package, and with a half-cell."""
+    more, points = (POTENTIAL, 3) if potential else ("", 2)
+    return MISSION.format(name=name, surface=surface, more=more, points=points)
+
+
+@pytest.fixture(scope="module")
+def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """A folder with the package installed and a campaign of two missions."""
-    site, campaign = tmp_path / "site", tmp_path / "campaign"
-    metadata = site / "thermometer-1.0.dist-info"
+    folder = tmp_path_factory.mktemp("outside")
+    site, campaign = folder / "site", folder / "campaign"
+    metadata = site / "outside-1.0.dist-info"
     metadata.mkdir(parents=True)
-    (metadata / "METADATA").write_text("Metadata-Version: 2.1\nName: thermometer\nVersion: 1.0\n")
-    (metadata / "entry_points.txt").write_text(ENTRY_POINTS)
-    for name, text in MODULES.items():
+    (metadata / "METADATA").write_text("Metadata-Version: 2.1\nName: outside\nVersion: 1.0\n")
+    (metadata / "entry_points.txt").write_text(ENTRY_POINTS + outside_rows.ENTRY_POINTS)
+    for name, text in (MODULES | outside_rows.MODULES).items():
         (site / f"{name}.py").write_text(text, encoding="utf-8")
     for name in ("missions", "platforms"):
         (campaign / name).mkdir(parents=True)
     (campaign / "platforms" / "with_thermometer.yaml").write_text(PLATFORM)
     base = builtin_root() / "platforms" / "tilt_rotor_hexarotor.yaml"
-    (campaign / "platforms" / base.name).write_text(base.read_text(encoding="utf-8"))
-    for name, mission in MISSIONS.items():
-        (campaign / "missions" / f"{name}.yaml").write_text(mission)
-    return tmp_path
+    text = base.read_text(encoding="utf-8").replace("kind: tilt_rotor\n", "kind: survey_rotor\n")
+    text = text.replace(f"name: {base.stem}\n", "name: survey_rotor\n")
+    (campaign / "platforms" / "survey_rotor.yaml").write_text(text, encoding="utf-8")
+    for text, name in ((mission("both"), "both"), (mission("warm", potential=False), "warm")):
+        (campaign / "missions" / f"{name}.yaml").write_text(text)
+    return folder
 
 
-LEGEND = """
-import sys
-from pathlib import Path
-from inspect_cli.commands.pictures import mark_styles
-from inspect_cli.log.reader import read_log
-from inspect_cli.metrics.evaluate import evaluate
-from inspect_cli.pictures.direction import direct
-
-log = read_log(Path(sys.argv[1]))
-print([entry.label for entry in direct(log, evaluate(log), mark_styles("en")).script.legend])
-"""
-"""Prints what the pictures of a flight explain."""
+def run(folder: Path, *arguments: str, exit_code: int = 0) -> str:
+    """What ``inspect`` prints in a process that has the package."""
+    done = python(folder, "-m", "inspect_cli", *arguments, exit_code=exit_code)
+    return done.stdout if exit_code == 0 else done.stderr
 
 
-def run(folder: Path, *arguments: str) -> subprocess.CompletedProcess[str]:
-    return python(folder, "-m", "inspect_cli", *arguments)
-
-
-def python(folder: Path, *arguments: str) -> subprocess.CompletedProcess[str]:
+def python(folder: Path, *arguments: str, exit_code: int = 0) -> subprocess.CompletedProcess[str]:
+    """A process that has the package."""
     env = os.environ | {"PYTHONPATH": str(folder / "site"), "COLUMNS": "200"}
-    command = [sys.executable, *arguments]
     done = subprocess.run(
-        command, cwd=folder / "campaign", env=env, capture_output=True, text=True, check=False
+        [sys.executable, *arguments],
+        cwd=folder / "campaign",
+        env=env,
+        capture_output=True,
+        text=True,
+        check=False,
     )
-    assert done.returncode == 0, done.stdout + done.stderr
+    assert done.returncode == exit_code, done.stdout + done.stderr
     return done
 
 
-def test_an_instrument_of_a_package_is_flown_by_two_workers_and_reported(folder: Path) -> None:
+REPORT = ("-m", "inspect_cli", "report", "--no-pictures", "--export", "geojson,ifc")
+
+
+@pytest.fixture(scope="module")
+def runs(folder: Path) -> dict[str, Path]:
+    """The runs of two missions that two workers fly, by name."""
     out = folder / "runs"
     options = ("--jobs", "2", "--update", "--out", str(out), "--json")
-    report = json.loads(run(folder, "regress", *options).stdout)
+    report = json.loads(run(folder, "regress", *options))
     assert [flight["verdict"] for flight in report["missions"]] == ["pass", "pass"]
-    both, warm = (out / name / "with_thermometer-seed1" for name in MISSIONS)
-    metrics = json.loads((both / "metrics.json").read_text())
+    return {name: out / name / "with_thermometer-seed1" for name in ("both", "warm")}
+
+
+@pytest.fixture(scope="module")
+def in_terminal(folder: Path, runs: dict[str, Path]) -> dict[str, str]:
+    """What the terminal shows when each run is reported."""
+    return {name: python(folder, *REPORT, str(run)).stderr for name, run in runs.items()}
+
+
+@pytest.fixture(scope="module")
+def flown(runs: dict[str, Path], in_terminal: dict[str, str]) -> Path:
+    """The run with both instruments, reported."""
+    return runs["both"]
+
+
+@pytest.fixture(scope="module")
+def log(flown: Path) -> RunLog:
+    return read_log(flown / "flight.mcap")
+
+
+def test_its_instrument_is_read_beside_the_half_cell(flown: Path) -> None:
+    metrics = json.loads((flown / "metrics.json").read_text())
     first, second, potential = metrics["points"]
     assert first["values"]["temperature"] == pytest.approx(20.0 - 2.0 * 1.2, abs=0.02)
     assert second["values"]["temperature"] == pytest.approx(20.0 - 2.0 * 1.3, abs=0.02)
     assert first["instrument"] == second["instrument"] == "thermometer"
     assert first["units"] == {"temperature": "°C"}
     assert not {"instrument", "values", "units"} & potential.keys()
-    assert potential["potential_mv"] == pytest.approx(-100.0, abs=6.0)
     assert metrics["metrics"]["thermometer.mean_c"]["unit"] == "°C"
-    shown = ("--no-pictures", "--export", "geojson,ifc")
-    in_terminal(run(folder, "report", str(both), *shown).stderr)
-    on_page((both / "report.html").read_text(encoding="utf-8"))
-    handed_out(both)
-    said = run(folder, "report", str(warm), *shown).stderr
-    assert "potential" not in said
-    without_half_cell(warm)
-    legend = python(folder, "-c", LEGEND, str(both / "flight.mcap")).stdout
-    assert legend.strip() == "['passive', 'reading']"
+    # Its specimen: −0.2 V − 0.5 V/m · 0.1 m, and what a placement error of 5 mm and noise make.
+    assert potential["potential_mv"] == pytest.approx(-250.0, abs=6.0)
 
 
-def in_terminal(said: str) -> None:
-    """Each instrument has a table of its own points."""
-    values, potentials = said.split("points of thermometer")[1].split("points ", 1)
-    rows = [line.split() for line in values.splitlines() if "valid" in line]
-    assert [row[:2] for row in rows] == [["1", "valid"], ["2", "valid"]]
-    assert [float(row[2]) for row in rows] == pytest.approx([17.6, 17.4], abs=0.02)
-    assert "temperature" in values
-    assert "/°C" in values
-    assert [line.split()[0] for line in potentials.splitlines() if " valid  " in line] == ["3"]
-
-
-def section(page: str, name: str) -> str:
-    """The text of a section, its cells apart; empty where the page has no such section."""
-    found = re.search(rf'<section id="{name}".*?</section>', page, re.DOTALL)
-    text = re.sub(r"<script.*?</script>", "", found.group() if found else "", flags=re.DOTALL)
-    return re.sub(r"(\s*\|\s*)+", " | ", html.unescape(re.sub(r"<[^>]+>", "|", text)))
-
-
-def scene(page: str) -> dict[str, list[str]]:
-    """What the view of the structure shows under the pointer, by the names of its traces."""
-    found = re.search(r'data-plot="plot-scene"[^>]*>(.*?)</script>', page, re.DOTALL)
-    assert found
-    return {t["name"]: t["customdata"] for t in json.loads(found[1])["data"] if "customdata" in t}
-
-
-def on_page(page: str) -> None:
-    """A generic table beside the package's own chapter; the half-cell's shows its own point."""
-    readings, potentials = section(page, "readings"), section(page, "survey")
-    assert "temperature | °C" in readings
-    for label, celsius in (("1", 17.6), ("2", 17.4)):
-        row = re.search(rf"\| {label} \| wall \| [^|]+ \| [^|]+ \| ([0-9.]+) \|", readings)
-        assert row
-        assert float(row[1]) == pytest.approx(celsius, abs=0.02)
-    assert readings.count("| valid |") == 2
-    assert "| 1 | wall |" not in potentials
-    assert "| 3 | wall |" in potentials
-    assert "2 of 2 readings of the instrument “thermometer” are valid." in section(page, "summary")
-    assert re.search(r"Point 1: 17\.(59|60|61) degrees\.", section(page, "temperatures"))
-    marks = scene(page)
-    assert len(marks["valid readings"]) == 1
-    first, second = marks["valid readings of thermometer"]
-    assert re.fullmatch(r"1<br>temperature 17\.[0-9]+ °C", first)
-    assert second.startswith("2<br>")
-    assert "invalid readings" not in marks
-
-
-def handed_out(flown: Path) -> None:
-    """Every export has name, value and unit, and whether the reading is valid."""
-    with (flown / "readings.csv").open(encoding="utf-8", newline="") as file:
-        rows = list(csv.DictReader(file))
-    assert [row["instrument"] for row in rows] == ["thermometer", "thermometer", ""]
-    assert [row["temperature_unit"] for row in rows] == ["°C", "°C", ""]
-    assert [row["valid"] for row in rows] == ["true"] * 3
-    assert float(rows[1]["temperature"]) == pytest.approx(17.4, abs=0.02)
-    features = json.loads((flown / "readings.geojson").read_text(encoding="utf-8"))["features"]
-    first, _, potential = (feature["properties"] for feature in features)
-    assert first["temperature"] == pytest.approx(17.6, abs=0.02)
-    assert (first["temperature_unit"], first["valid"]) == ("°C", True)
-    assert potential["temperature"] is None
-    model = ifcopenshell.open(str(flown / "readings.ifc"))
-    sets = [
-        ifcopenshell.util.element.get_psets(proxy)
-        for proxy in model.by_type("IfcBuildingElementProxy")
-    ]
-    assert [list(found) for found in sets] == [
-        ["InstrumentReading"],
-        ["InstrumentReading"],
-        ["HalfCellPotential"],
-    ]
-    held = sets[0]["InstrumentReading"]
-    assert held["temperature"] == pytest.approx(17.6, abs=0.02)
-    assert (held["temperature unit"], held["Valid"]) == ("°C", True)
-
-
-def without_half_cell(flown: Path) -> None:
-    """The half-cell has no chapter, no marks and no potentials where it read nothing."""
+def test_its_chapter_stands_in_the_report(flown: Path) -> None:
     page = (flown / "report.html").read_text(encoding="utf-8")
-    assert not section(page, "survey")
-    assert "Half-cell readings" not in section(page, "flight")
-    assert set(scene(page)) == {"valid readings of thermometer"}
-    handed = json.loads((flown / "readings.geojson").read_text(encoding="utf-8"))
-    assert "potential_reference" not in handed
-    assert "potential_mv" not in handed["features"][0]["properties"]
+    assert "Temperatures of the surface" in page
+    assert "Point 1: 17.60 degrees." in page or "Point 1: 17.59 degrees." in page
+
+
+def test_its_points_are_shown_beside_those_of_the_half_cell(
+    flown: Path, in_terminal: dict[str, str]
+) -> None:
+    outside_shown.in_terminal(in_terminal["both"])
+    outside_shown.on_page((flown / "report.html").read_text(encoding="utf-8"))
+    outside_shown.handed_out(flown)
+
+
+def test_the_half_cell_is_silent_where_it_read_nothing(
+    runs: dict[str, Path], in_terminal: dict[str, str]
+) -> None:
+    assert "potential" not in in_terminal["warm"]
+    outside_shown.without_half_cell(runs["warm"])
+
+
+def test_pictures_mark_the_points_of_both(folder: Path, flown: Path) -> None:
+    legend = python(folder, "-c", outside_shown.LEGEND, str(flown / "flight.mcap")).stdout
+    assert legend.strip() == "['uncertain', 'reading']"
+
+
+def test_its_task_is_planned_for_its_kind_of_platform(flown: Path) -> None:
+    plan = json.loads((flown / "plan.json").read_text())
+    assert plan["platform"] == "with_thermometer"
+    targets = plan["targets"]
+    assert [target["label"] for target in targets] == ["1", "2", "3"]
+    assert [target["uv_m"] for target in targets[:2]] == [[0.0, 0.0], [0.0, 0.1]]
+    assert [target["sensor"] for target in targets] == ["thermometer", "thermometer", "half_cell"]
+    assert targets[0]["law"]["depth_m"] == 0.1
+
+
+def test_its_sensor_is_logged_at_its_rate_and_spoiled_by_its_fault(log: RunLog) -> None:
+    rows, state = log.channels["/sensor/barometer"], log.channels["/truth/state"]
+    rate_hz = (len(rows) - 1) / float(rows["t_s"][-1] - rows["t_s"][0])
+    assert rate_hz == pytest.approx(20.0, rel=1e-6)
+    lost = np.isnan(rows["height"])
+    assert list(rows["t_s"][lost]) == pytest.approx([2.0 + 0.05 * k for k in range(20)])
+    true = state["p_WB"][np.searchsorted(state["t_s"], rows["t_s"]), 2]
+    assert np.nanmax(np.abs(rows["height"] - true)) < 1e-9
+
+
+def test_its_disturbance_acts(log: RunLog) -> None:
+    state = log.channels["/truth/state"]
+    up_n = state["wrench_ext_B"][state["p_WB"][:, 2] > 0.6, 2]
+    assert np.median(up_n) == pytest.approx(2.0, abs=0.2)
+
+
+def test_the_surface_that_its_task_names_must_be_there(folder: Path, tmp_path: Path) -> None:
+    (tmp_path / "missions").mkdir()
+    cold = tmp_path / "missions" / "cold.yaml"
+    cold.write_text(mission("cold", surface="wal"))
+    shutil.copytree(folder / "campaign" / "platforms", tmp_path / "platforms")
+    message = " ".join(run(folder, "plan", str(cold), exit_code=2).split())
+    line = cold.read_text().split("on: wal,")[0].count("\n") + 1
+    assert f"cold.yaml:{line}:" in message
+    assert "no surface is named 'wal'" in message
+
+
+def test_without_the_package_its_kinds_are_refused(folder: Path) -> None:
+    with pytest.raises(SchemaError, match="survey_rotor"):
+        load_mission(folder / "campaign" / "missions" / "warm.yaml")

@@ -15,17 +15,12 @@ from pathlib import Path
 import yaml
 
 HERE = Path(__file__).parent
-FLY = """
+PLAN = """
 import sys
-from pathlib import Path
-from inspect_cli.commands.delivery import Wanted
-from inspect_cli.commands.fly import fly
-from inspect_cli.commands.plan import plan
-from inspect_cli.commands.report import report
+from inspect_cli.cli import run
 
-outcome = fly(plan(Path(sys.argv[1])).file)
-report([outcome.folder], wanted=Wanted(pictures=False))
-print(outcome.folder)
+for mission in sys.argv[1:]:
+    print("exit code", run(["plan", mission]), file=sys.stderr)
 """
 
 
@@ -52,11 +47,20 @@ def python(site: Path, campaign: Path, *arguments: str) -> subprocess.CompletedP
     )
 
 
-def flown(site: Path, campaign: Path, mission: str) -> Path:
-    """Plan, fly and report a mission; return the run's folder."""
-    done = python(site, campaign, "-c", FLY, f"missions/{mission}.yaml")
+def run(site: Path, campaign: Path, *arguments: str) -> str:
+    """Run ``inspect``, which must succeed, and return what it prints."""
+    done = python(site, campaign, "-m", "inspect_cli", *arguments)
     assert done.returncode == 0, done.stdout + done.stderr
-    return campaign / done.stdout.strip()
+    return done.stdout
+
+
+def refusals(site: Path, campaign: Path, *missions: Path) -> list[str]:
+    """What is said of each mission, none of which can be planned; one process plans them all."""
+    files = [str(mission.relative_to(campaign)) for mission in missions]
+    done = python(site, campaign, "-c", PLAN, *files)
+    said = " ".join(done.stderr.split()).split("exit code 2")
+    assert len(said) == len(missions) + 1, said
+    return said[:-1]
 
 
 def without_sensors(platform_file: Path) -> str:

@@ -3,13 +3,12 @@
 from __future__ import annotations
 
 import json
-import shutil
 from types import SimpleNamespace
 
 import numpy as np
 import pytest
 from crawler_models import crawler
-from packages import HERE, flown, install, python
+from packages import install, refusals
 from pitching_crawler.file_model import FOOT
 from pitching_crawler.modes import MODES
 from pitching_crawler.sensors import ContactForce, Encoders
@@ -23,7 +22,7 @@ from inspect_cli.vehicles import tilt_rotor
 from inspect_cli.vehicles.actuators import Drive, Rotor
 from inspect_cli.vehicles.contacts import wrench_record
 
-pytestmark = pytest.mark.xdist_group("crawler")  # one flight for all
+pytestmark = pytest.mark.xdist_group("crawlers")  # the flights of both
 
 MASS, G = 2.3, 9.81
 PUSH_N, PROP_N = 2.0, 3.0
@@ -34,23 +33,9 @@ WALL_TARGET, CEILING_TARGET = 0, 1
 
 
 @pytest.fixture(scope="module")
-def site(tmp_path_factory):
-    site = tmp_path_factory.mktemp("site")
-    install(site, "pitching_crawler")
-    return site
-
-
-@pytest.fixture(scope="module")
-def campaign(tmp_path_factory):
-    folder = tmp_path_factory.mktemp("campaign")
-    shutil.copytree(HERE / "crawler_campaign", folder, dirs_exist_ok=True)
-    return folder
-
-
-@pytest.fixture(scope="module")
-def flight(site, campaign):
+def flight(crawlers):
     """The run's folder, its log, and the rows of a record while in a mode."""
-    folder = flown(site, campaign, "lean_and_prop")
+    folder = crawlers.pitching
     log = read_log(folder / "flight.mcap")
     reference, table = log.rows(Reference), log.modes()
     names = np.array([table.by_number[int(number)].name for number in reference["mode"]])
@@ -188,12 +173,6 @@ def edited(campaign, name, old, new):
     return path
 
 
-def refused(site, campaign, path):
-    done = python(site, campaign, "-m", "inspect_cli", "plan", f"missions/{path.name}")
-    assert done.returncode == 2, done.stdout + done.stderr
-    return " ".join((done.stdout + done.stderr).split())
-
-
 def place_of(path, words):
     """Line and column, counted from 1, at which the words stand in a file."""
     for number, line in enumerate(path.read_text().splitlines(), 1):
@@ -202,28 +181,27 @@ def place_of(path, words):
     raise AssertionError(words)
 
 
-def test_another_platforms_task_is_refused_with_what_it_can_do(site, campaign):
+def test_what_a_vehicle_cannot_do_is_refused_with_who_can_and_with_what_it_lacks(
+    crawler_campaign, tmp_path
+):
+    install(tmp_path / "site", "pitching_crawler")
+    prop = "prop: {on: ceiling, at_m: [0.0, 0.0], force_n: 3.0, dwell_s: 3, standoff_m: 0.1}"
     touch = "contact_points: {on: ceiling, at_m: [[0, 0, 3]]}\n    sensor: none"
-    old = "prop: {on: ceiling, at_m: [0.0, 0.0], force_n: 3.0, dwell_s: 3, standoff_m: 0.1}"
-    path = edited(campaign, "touching", old, touch)
-    message = refused(site, campaign, path)
-    assert place_of(path, "{on: ceiling") in message
-    assert "pitching_crawler cannot do the task 'contact_points'" in message
-    assert "it can do: lean, prop; platforms that can: tilt_rotor_hexarotor" in message
-
-
-def test_its_task_is_refused_to_another_platform(site, campaign):
+    touching = edited(crawler_campaign, "touching", prop, touch)
     swap = ("platform: pitching_crawler", "platform: tilt_rotor_hexarotor")
-    path = edited(campaign, "tilting", *swap)
-    message = refused(site, campaign, path)
-    assert place_of(path, "{on: wall") in message
-    assert "tilt_rotor_hexarotor cannot do the task 'lean'" in message
-    assert "platforms that can: pitching_crawler" in message
+    tilting = edited(crawler_campaign, "tilting", *swap)
+    heavy = edited(crawler_campaign, "heavy", "force_n: 2.0", "force_n: 80.0")
+    others_task, own_task, push = refusals(
+        tmp_path / "site", crawler_campaign, touching, tilting, heavy
+    )
 
+    assert place_of(touching, "{on: ceiling") in others_task
+    assert "pitching_crawler cannot do the task 'contact_points'" in others_task
+    assert "it can do: lean, prop; platforms that can: tilt_rotor_hexarotor" in others_task
 
-def test_a_push_that_the_rotors_cannot_carry_is_infeasible(site, campaign):
-    path = edited(campaign, "heavy", "force_n: 2.0", "force_n: 80.0")
-    done = python(site, campaign, "-m", "inspect_cli", "plan", f"missions/{path.name}")
-    assert done.returncode == 2
+    assert place_of(tilting, "{on: wall") in own_task
+    assert "tilt_rotor_hexarotor cannot do the task 'lean'" in own_task
+    assert "platforms that can: pitching_crawler" in own_task
+
     lack_n = np.hypot(80.0, MASS * G) - 6 * 12.0
-    assert f"it needs {lack_n:.2f} N more thrust" in " ".join((done.stdout + done.stderr).split())
+    assert f"it needs {lack_n:.2f} N more thrust" in push

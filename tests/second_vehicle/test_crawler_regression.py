@@ -1,21 +1,12 @@
-"""Kinds, sensors, tasks and a chapter of installed packages are known to every worker process."""
+"""Kinds, sensors and tasks of installed packages are known to every worker process."""
 
 from __future__ import annotations
 
-import json
-import shutil
+import pytest
 
-from packages import HERE, install, python
+pytestmark = pytest.mark.xdist_group("crawlers")  # the flights of both
 
 
-def test_two_kinds_of_packages_are_flown_by_two_workers(tmp_path):
-    site, campaign = tmp_path / "site", tmp_path / "campaign"
-    install(site, "pitching_crawler", "stiff_crawler")
-    shutil.copytree(HERE / "crawler_campaign", campaign)
-    done = python(
-        site, campaign, "-m", "inspect_cli", "regress", "--jobs", "2", "--update", "--json"
-    )
-    report = json.loads(done.stdout)
-    assert done.returncode == 0, done.stderr
-    flights = {(flight["mission"], flight["verdict"]) for flight in report["missions"]}
+def test_two_kinds_of_packages_are_flown_by_two_workers(crawlers):
+    flights = {(f["mission"], f["verdict"]) for f in crawlers.regression["missions"]}
     assert flights == {("lean-and-prop", "pass"), ("stiff-lean", "pass")}

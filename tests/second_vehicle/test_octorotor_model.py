@@ -62,13 +62,13 @@ def test_allocation_is_that_of_the_model(vehicle, model):
 def test_allocation_keeps_attitude_and_weight_before_anything_else(vehicle):
     allocation = FixedAllocation(vehicle.platform.rotors)
     command = Command.create(vehicle.capabilities.lengths)
-    weight_B = np.array([0.0, 0.0, 32.0])
+    allocate = allocation.bind(np.array([0.0, 0.0, 32.0]), command)
     command.wrench_B[:] = [0.5, -0.4, 33.0, 0.2, -0.1, 0.05]
-    allocation.update(weight_B, command)
+    allocate()
     assert command.saturated == 0.0
     assert np.allclose(command.allocated_B, command.wrench_B, atol=1e-9)
     command.wrench_B[:] = [60.0, 0.0, 33.0, 0.2, -0.1, 0.05]
-    allocation.update(weight_B, command)
+    allocate()
     assert command.saturated == 1.0
     assert np.allclose(command.allocated_B[3:], command.wrench_B[3:], atol=1e-9)
     assert 0.0 < command.allocated_B[0] < 60.0

@@ -3,12 +3,11 @@
 from __future__ import annotations
 
 import json
-import shutil
 from types import SimpleNamespace
 
 import numpy as np
 import pytest
-from packages import HERE, flown, install, python
+from packages import install, refusals
 from pitching_crawler.sensors import ContactForce
 from scipy.spatial.transform import Rotation
 from stiff_crawler.vehicle import STIFF_MODES
@@ -16,29 +15,15 @@ from stiff_crawler.vehicle import STIFF_MODES
 from inspect_cli.log.reader import read_log
 from inspect_cli.records import Reference, State
 
-pytestmark = pytest.mark.xdist_group("stiff_crawler")  # one flight for all
+pytestmark = pytest.mark.xdist_group("crawlers")  # the flights of both
 
 MASS, G, PUSH_N, WHEEL_M = 2.3, 9.81, 3.0, 0.06
 
 
 @pytest.fixture(scope="module")
-def site(tmp_path_factory):
-    site = tmp_path_factory.mktemp("site")
-    install(site, "pitching_crawler", "stiff_crawler")
-    return site
-
-
-@pytest.fixture(scope="module")
-def campaign(tmp_path_factory):
-    folder = tmp_path_factory.mktemp("campaign")
-    shutil.copytree(HERE / "crawler_campaign", folder, dirs_exist_ok=True)
-    return folder
-
-
-@pytest.fixture(scope="module")
-def flight(site, campaign):
+def flight(crawlers):
     """The result of a run, its log, and the states in a mode."""
-    folder = flown(site, campaign, "stiff_lean")
+    folder = crawlers.stiff
     log = read_log(folder / "flight.mcap")
     state, modes = log.rows(State), log.rows(Reference)["mode"]
     result = json.loads((folder / "metrics.json").read_text())
@@ -76,12 +61,11 @@ def test_the_wrench_sensor_sits_under_the_wheel(flight):
     assert np.linalg.norm(measured, axis=1).max() == pytest.approx(force.max(), abs=0.1)
 
 
-def test_without_a_mode_for_it_propping_is_refused(site, campaign):
-    text = (campaign / "missions" / "lean_and_prop.yaml").read_text()
-    path = campaign / "missions" / "stiff_prop.yaml"
+def test_without_a_mode_for_it_propping_is_refused(crawler_campaign, tmp_path):
+    install(tmp_path / "site", "pitching_crawler", "stiff_crawler")
+    text = (crawler_campaign / "missions" / "lean_and_prop.yaml").read_text()
+    path = crawler_campaign / "missions" / "stiff_prop.yaml"
     path.write_text(text.replace("platform: pitching_crawler", "platform: stiff_crawler"))
-    done = python(site, campaign, "-m", "inspect_cli", "plan", "missions/stiff_prop.yaml")
-    message = " ".join((done.stdout + done.stderr).split())
-    assert done.returncode == 2
+    [message] = refusals(tmp_path / "site", crawler_campaign, path)
     assert "stiff_crawler cannot do the task 'prop'" in message
     assert "it can do: lean; platforms that can: pitching_crawler" in message

@@ -14,6 +14,11 @@ from inspect_cli.log.reader import RunLog, read_log
 
 Array = np.ndarray
 
+ONE_POINT = """
+tasks:
+  - contact_grid: {on: wall, rows: 1, columns: 1, pitch_m: 0.05}
+    sensor: half_cell
+"""
 TWO_POINTS = """
 tasks:
   - contact_grid: {on: wall, rows: 1, columns: 2, pitch_m: 0.05}

@@ -38,7 +38,7 @@ def test_a_calm_flight_has_no_channel_for_what_there_is_not(flown: Fly) -> None:
 
 def test_constant_loads_alone_need_no_channel(flown: Fly) -> None:
     pull = "disturbances: [{kind: constant, frame: world, force_n: [-3, 0, 0], start_s: 4}]\n"
-    assert TrueDisturbance.topic not in flown(Scenario("pulled", pull, tasks="")).log.channels
+    assert TrueDisturbance.topic not in flown(Scenario("pulled", pull)).log.channels
 
 
 def test_the_channel_shares_the_ticks_of_the_state(flown: Fly) -> None:

@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from modes import Mode
-from scenarios import TWO_POINTS, Array, Flown, Scenario
+from scenarios import ONE_POINT, TWO_POINTS, Array, Flown, Scenario
 
 from inspect_cli.errors import SchemaError
 from inspect_cli.estimation.observer_lag import first_order_response
@@ -58,7 +58,7 @@ def test_no_pose_is_refused_in_a_normal_flight(flown: Fly, monkeypatch: pytest.M
         return accepted[-1]
 
     monkeypatch.setattr(ImpedanceControl, "correct", watched)
-    flown(Scenario("onboard-watched", tasks=ONBOARD + TWO_POINTS, seed=2))
+    flown(Scenario("onboard-watched", tasks=ONBOARD + ONE_POINT, seed=2))
     assert len(accepted) > 1000
     assert all(accepted)
 
@@ -130,7 +130,7 @@ def test_the_observers_error_is_its_lag(flown: Fly, campaign: Path) -> None:
         for speed in (0.05, 0.2):
             tasks = f"platform: gain_{gain:g}\nflight: {{approach_speed_mps: {speed}}}\n"
             name = f"lag-{gain:g}-{100 * speed:g}"
-            flight = flown(Scenario(name, SENSED, ONBOARD + tasks + TWO_POINTS))
+            flight = flown(Scenario(name, SENSED, ONBOARD + tasks + ONE_POINT))
             flown_rmse = metric(flight, "force_sensor.contact_rmse_fx_n")
             assert flown_rmse == pytest.approx(_lag_rmse(flight, gain), abs=0.15), name
             errors[gain, speed] = flown_rmse

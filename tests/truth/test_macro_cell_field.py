@@ -62,14 +62,13 @@ def test_outside_of_the_concrete_there_are_no_values() -> None:
     assert np.isfinite(found.at(0.3, -0.2)).all()
     for u, v in [(0.301, 0.0), (-0.101, 0.0), (0.0, 0.201), (0.0, -0.201), (np.nan, 0.0)]:
         assert np.isnan(found.at(u, v)).all()
-        assert not found.active(u, v)
+        assert not found.active(np.array([[u, v]]))
 
 
 def test_the_steel_is_active_in_its_sites_alone() -> None:
     found = field()
-    assert found.active(0.0, 0.0)
-    assert found.active(0.049, 0.0)
-    assert not found.active(0.051, 0.0)
+    places = np.array([[0.0, 0.0], [0.049, 0.0], [0.051, 0.0]])
+    assert found.active(places).tolist() == [True, True, False]
     assert found.at(0.051, 0.0)[0] < -0.35, "negative, but passive: the site polarises it"
 
 
@@ -163,7 +162,7 @@ def test_a_belief_that_it_does_not_fit_is_refused() -> None:
         structure(PLANE, sites=(SITE.model_copy(update={"at_m": (0.5, 0.0)}),))
     with pytest.raises(InputError, match="has to state its size_m"):
         load_specimen(specimen(), Path())
-    assert load_specimen(specimen(size_m=(0.8, 0.8)), Path()).active(0.0, 0.0)
+    assert load_specimen(specimen(size_m=(0.8, 0.8)), Path()).active(np.zeros((1, 2)))
 
 
 def test_it_knows_its_temperature() -> None:

@@ -60,7 +60,7 @@ def test_each_cell_holds_what_the_specimen_says_at_its_middle(tmp_path) -> None:
         u, v = raster.u_m[column], raster.v_m[row]
         values = raster.potential_v[row, column], raster.resistivity_ohm_m[row, column]
         assert values == pytest.approx(field.at(u, v))
-        assert raster.active[row, column] == field.active(u, v)
+        assert raster.active[row, column] == field.active(np.array([[u, v]]))
     # Active where −350 mV and 100 Ω·m are passed: −2 ln(120/187) of σ² around the spot.
     radius_m = 0.2 * np.sqrt(-2.0 * np.log(120.0 / 187.0))
     assert raster.active.sum() * du * dv == pytest.approx(np.pi * radius_m**2, rel=0.01)

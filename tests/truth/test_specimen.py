@@ -75,17 +75,15 @@ def test_the_rule_says_where_an_analytic_field_is_active(tmp_path: Path) -> None
     spot = AnalyticSpot(at_m=(0.1, -0.2), depth_v=0.4, radius_m=0.05, resistivity_factor=0.1)
     dry = AnalyticSpot(at_m=(-2.0, 0.0), depth_v=0.4, radius_m=0.05)
     field = load_specimen(AnalyticSpecimen(model="analytic", spots=(spot, dry)), tmp_path)
-    assert field.active(0.1, -0.2)
-    assert not field.active(0.1, 0.2)
-    assert field.at(-2.0, 0.0)[0] < -0.35
-    assert not field.active(-2.0, 0.0), "too resistive for the rule to say active"
+    places = np.array([[0.1, -0.2], [0.1, 0.2], [-2.0, 0.0]])
+    assert field.at(-2.0, 0.0)[0] < -0.35  # but too resistive for the rule to say active
+    assert field.active(places).tolist() == [True, False, False]
 
 
 def test_the_rule_says_where_a_grid_is_active(tmp_path: Path) -> None:
     field = load_specimen(grid(tmp_path, "-100,-500\n-100,-500\n", "9 9\n9 9\n"), tmp_path)
-    assert field.active(1.05, 2.0)
-    assert not field.active(0.95, 2.0)
-    assert not field.active(1.2, 2.0), "there are no values"
+    places = np.array([[1.05, 2.0], [0.95, 2.0], [1.2, 2.0]])  # at the last there are no values
+    assert field.active(places).tolist() == [True, False, False]
 
 
 def test_analytic_field_without_spots(tmp_path: Path) -> None:

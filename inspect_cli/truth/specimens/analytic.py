@@ -11,7 +11,7 @@ import numpy as np
 
 from inspect_cli.compiled import kernel
 from inspect_cli.schema.specimens import AnalyticSpecimen
-from inspect_cli.spatial.arrays import Points
+from inspect_cli.spatial.arrays import Mask, Points
 from inspect_cli.truth.specimens.fields import says_active
 
 
@@ -42,6 +42,6 @@ class SpotField:
         result: tuple[float, float] = spots_at(u, v, *self._sound, self._spots)
         return result
 
-    def active(self, u: float, v: float) -> bool:
-        """Whether the combined rule says active of the field at (u, v) in m."""
-        return says_active(self, u, v)
+    def active(self, uv_m: Points) -> Mask:
+        """Whether the combined rule says active of the field at places (n, 2), m."""
+        return says_active(self, uv_m)

@@ -11,15 +11,14 @@ the concrete, corrected for its temperature as ASTM C876 asks.
 
 from __future__ import annotations
 
-import math
 from typing import Final, Protocol
 
 import numpy as np
 
-from inspect_cli.assessment.classes import combined_verdict
+from inspect_cli.assessment.classes import VERDICTS, verdict_codes
 from inspect_cli.assessment.electrodes import temperature_correction_v
 from inspect_cli.compiled import kernel
-from inspect_cli.spatial.arrays import Matrix
+from inspect_cli.spatial.arrays import Mask, Matrix, Points
 
 EDGE: Final = 1e-9
 """In pitches: a point so little outside the grid is on its edge."""
@@ -37,8 +36,8 @@ class SpecimenField(Protocol):
         """(V, Ω·m) at (u, v) in m; NaN where the specimen has no values."""
         ...
 
-    def active(self, u: float, v: float) -> bool:
-        """Whether the reinforcement under (u, v), m, truly corrodes; False without values."""
+    def active(self, uv_m: Points) -> Mask:
+        """Whether the reinforcement under places (n, 2), m, truly corrodes; not without values."""
         ...
 
 
@@ -67,10 +66,12 @@ def bilinear(x: float, y: float, values: Matrix) -> tuple[float, float]:
     )
 
 
-def says_active(field: SpecimenField, u: float, v: float) -> bool:
-    """Whether the combined rule says active of the values at (u, v), m, on the standard's scale."""
-    potential, resistivity = field.at(u, v)
-    if math.isnan(potential):
-        return False
-    standard = potential + temperature_correction_v(field.temperature_c)
-    return combined_verdict(standard, resistivity) == "active"
+def says_active(field: SpecimenField, uv_m: Points) -> Mask:
+    """Whether the combined rule says active of the values at places (n, 2), m.
+
+    On the standard's scale. The rule is asked once for all places: asked one by one it takes 50 µs.
+    """
+    values = np.array([field.at(u, v) for u, v in uv_m.tolist()]).reshape(-1, 2)
+    standard = values[:, 0] + temperature_correction_v(field.temperature_c)
+    active: Mask = verdict_codes(standard, values[:, 1]) == VERDICTS.index("active")
+    return active

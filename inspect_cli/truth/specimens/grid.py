@@ -17,7 +17,7 @@ import numpy as np
 from inspect_cli.assessment.electrodes import STANDARD_C
 from inspect_cli.errors import InputError
 from inspect_cli.schema.specimens import GridSpecimen
-from inspect_cli.spatial.arrays import Matrix, Vector
+from inspect_cli.spatial.arrays import Mask, Matrix, Points, Vector
 from inspect_cli.surveys.grids import read_numbers
 from inspect_cli.truth.specimens.fields import bilinear, says_active
 
@@ -49,9 +49,9 @@ class GridField:
         result: tuple[float, float] = bilinear(x, y, self._values)
         return result
 
-    def active(self, u: float, v: float) -> bool:
-        """Whether the combined rule says active of the values at (u, v) in m."""
-        return says_active(self, u, v)
+    def active(self, uv_m: Points) -> Mask:
+        """Whether the combined rule says active of the values at places (n, 2), m."""
+        return says_active(self, uv_m)
 
 
 def grid_field(model: GridSpecimen, root: Path) -> GridField:

@@ -16,6 +16,7 @@ from scipy.interpolate import RectBivariateSpline
 
 from inspect_cli.errors import InputError
 from inspect_cli.schema.specimens import MacroCellSpecimen
+from inspect_cli.spatial.arrays import Mask, Points
 from inspect_cli.truth.cache import kept
 from inspect_cli.truth.macro_cell.patch import Patch
 from inspect_cli.truth.macro_cell.solution import (
@@ -54,8 +55,11 @@ class MacroCellField:
         result: tuple[float, float] = bilinear(x, y, self._values)
         return result
 
-    def active(self, u: float, v: float) -> bool:
-        """Whether (u, v), m, lies over an active site, within the modelled concrete."""
+    def active(self, uv_m: Points) -> Mask:
+        """Whether places (n, 2), m, lie over an active site, within the modelled concrete."""
+        return np.array([self._over_a_site(u, v) for u, v in uv_m.tolist()], np.bool_)
+
+    def _over_a_site(self, u: float, v: float) -> bool:
         if math.isnan(self.at(u, v)[0]):
             return False
         return any(
