@@ -9,8 +9,9 @@ from inspect_cli.log.reader import RunLog
 from inspect_cli.pictures.names import FILM_NAME, SCENE_NAME
 from inspect_cli.pictures.render import Pictures, render_pictures
 from inspect_cli.pictures.script import LegendEntry
-from inspect_cli.reporting.figures.palette import ASTM_STYLES, INVALID_STYLE
+from inspect_cli.reporting.figures.palette import ASTM_STYLES, INVALID_STYLE, READ_STYLE
 from inspect_cli.reporting.words.language import language as language_of
+from inspect_cli.scene.marks import INVALID, UNCLASSED
 from inspect_cli.schema.result import Result
 from inspect_cli.schema.survey import LanguageCode
 
@@ -49,5 +50,5 @@ def mark_styles(language: LanguageCode) -> dict[str, LegendEntry]:
     words = language_of(language)
     return {
         name: LegendEntry(words.plain(style.label), style.colour, style.symbol)
-        for name, style in {**ASTM_STYLES, "invalid": INVALID_STYLE}.items()
+        for name, style in {**ASTM_STYLES, UNCLASSED: READ_STYLE, INVALID: INVALID_STYLE}.items()
     }

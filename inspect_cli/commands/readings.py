@@ -185,7 +185,8 @@ def points_of(
         strict=True,
     )
     # Every value was checked when the file was read; a hundred thousand need no second look.
-    unknown: dict[str, Any] = dict.fromkeys(PointResult.model_fields) | {"values": {}}
+    unknown: dict[str, Any] = dict.fromkeys(PointResult.model_fields)
+    unknown |= {"instrument": "", "values": {}, "units": {}}
     return tuple(
         PointResult.model_construct(
             **unknown

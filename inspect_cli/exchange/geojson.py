@@ -45,8 +45,8 @@ def geojson(readings: HandedReadings, georeference: Georeference | None = None) 
         "type": "FeatureCollection",
         "name": readings.title,
         "coordinate_system": _system(georeference),
-        "potential_reference": "CSE",
-        "read_against": readings.electrode,
+        "potential_reference": "CSE" if readings.holds_potentials else None,
+        "read_against": readings.electrode if readings.holds_potentials else None,
         "structure": readings.structure,
         "date": readings.date,
     }

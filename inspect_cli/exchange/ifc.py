@@ -1,11 +1,12 @@
 """Readings as an IFC4 model: a small solid at each point, coloured by its class.
 
 Each reading is an ``IfcBuildingElementProxy`` at its place, which every viewer shows and lets
-one select, with the property set ``HalfCellPotential`` (the prefix ``Pset_`` belongs to the sets
-that buildingSMART publishes). Its shape, an octahedron, is one map per class that all readings
-of the class share. Lengths are metres in the readings' own coordinates; with a georeference the
-site has latitude, longitude and height, and the context the direction of true north. Identifiers
-are derived from the content and no time is written: the same readings give the same bytes.
+one select, with the property set ``HalfCellPotential``, or ``InstrumentReading`` if another
+instrument was read (the prefix ``Pset_`` belongs to the sets that buildingSMART publishes). Its
+shape, an octahedron, is one map per class that all readings of the class share. Lengths are metres
+in the readings' own coordinates; with a georeference the site has latitude, longitude and height,
+and the context the direction of true north. Identifiers are derived from the content and no time is
+written: the same readings give the same bytes.
 """
 
 from __future__ import annotations
@@ -17,6 +18,7 @@ from typing import Any
 
 from inspect_cli.errors import EnvironmentFault, InputError
 from inspect_cli.exchange.readings import HandedReadings
+from inspect_cli.exchange.readings_csv import value_names
 from inspect_cli.schema.result import PointResult
 from inspect_cli.schema.survey import Georeference
 
@@ -24,11 +26,15 @@ MAX_POINTS = 20_000
 """The library makes some 30 entities per point; beyond this a map is the better picture."""
 RADIUS_M = 0.02
 PROPERTY_SET = "HalfCellPotential"
+OTHER_PROPERTY_SET = "InstrumentReading"
+"""Of a point that another instrument than a half-cell read."""
+OBJECT_TYPE = "Half-cell reading"
 COLOURS = {
     "passive": (0.15, 0.55, 0.30),
     "uncertain": (0.93, 0.70, 0.13),
     "active": (0.80, 0.16, 0.16),
     "no reading": (0.60, 0.60, 0.60),
+    "reading": (0.20, 0.45, 0.75),
 }
 _SPACE = uuid.UUID("6f1d1c1e-6b0a-5c56-9a43-0d7a2f6c9b11")
 _CORNERS = ((1, 0, 0), (0, 1, 0), (-1, 0, 0), (0, -1, 0), (0, 0, 1), (0, 0, -1))
@@ -92,6 +98,10 @@ def _ifcopenshell() -> Any:
     return ifcopenshell
 
 
+_Property = tuple[object, str, Any]
+"""A value, its type in IFC and its unit there."""
+
+
 class _Model:
     """An IFC file under construction."""
 
@@ -133,7 +143,7 @@ class _Model:
             self._id(f"reading {k}"),
             Name=point.label,
             Description=point.reason or None,
-            ObjectType="Half-cell reading",
+            ObjectType=f"Reading by {point.instrument}" if point.instrument else OBJECT_TYPE,
             ObjectPlacement=make("IfcLocalPlacement", self._site_place, place),
             Representation=make("IfcProductDefinitionShape", Representations=[drawn]),
             Tag=str(point.index),
@@ -141,7 +151,7 @@ class _Model:
         held = make(
             "IfcPropertySet",
             self._id(f"properties {k}"),
-            Name=PROPERTY_SET,
+            Name=OTHER_PROPERTY_SET if point.instrument else PROPERTY_SET,
             HasProperties=self._properties(point),
         )
         make(
@@ -240,26 +250,39 @@ class _Model:
         )
 
     def _properties(self, point: PointResult) -> list[Any]:
+        make = self._make
+        rows = self._values(point) if point.instrument else self._potentials(point)
+        rows |= {
+            "Valid": (point.valid, "IfcBoolean", None),
+            "WhyInvalid": (point.reason or None, "IfcText", None),
+            "Date": (self._readings.date, "IfcDate", None),
+        }
+        return [
+            make("IfcPropertySingleValue", name, None, make(kind, value), unit)
+            for name, (value, kind, unit) in rows.items()
+            if value is not None
+        ]
+
+    def _values(self, point: PointResult) -> dict[str, _Property]:
+        """What another instrument read. Its units stand beside it as words: IFC may lack them."""
+        rows: dict[str, _Property] = {"Instrument": (point.instrument, "IfcLabel", None)}
+        for name in value_names([point]):
+            rows[name] = (point.values.get(name), "IfcReal", None)
+            rows[f"{name} unit"] = (point.units.get(name), "IfcLabel", None)
+        return rows
+
+    def _potentials(self, point: PointResult) -> dict[str, _Property]:
         readings = self._readings
         potential = (point.potential_mv, "IfcElectricVoltageMeasure", self._millivolt)
         resistivity = (point.resistivity_ohm_m, "IfcReal", self._ohm_metre)
-        rows: dict[str, tuple[object, str, Any]] = {
+        return {
             "Potential": potential,
             "PotentialAgainst": ("CSE", "IfcLabel", None),
             "ReadAgainst": (readings.electrode, "IfcLabel", None),
             "AstmClass": (point.astm_class, "IfcLabel", None),
             "Resistivity": resistivity,
             "Corrosion": (point.corrosion, "IfcLabel", None),
-            "Valid": (point.valid, "IfcBoolean", None),
-            "WhyInvalid": (point.reason or None, "IfcText", None),
-            "Date": (readings.date, "IfcDate", None),
         }
-        make = self._make
-        return [
-            make("IfcPropertySingleValue", name, None, make(kind, value), unit)
-            for name, (value, kind, unit) in rows.items()
-            if value is not None
-        ]
 
     def _id(self, what: str) -> str:
         """An identifier that belongs to this content and to this part of it."""
@@ -268,6 +291,8 @@ class _Model:
 
 
 def _class_of(point: PointResult) -> str:
+    if point.instrument and point.valid:
+        return "reading"
     return point.astm_class or "no reading"
 
 

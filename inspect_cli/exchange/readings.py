@@ -24,3 +24,8 @@ class HandedReadings:
     """When the readings were taken, such as 2025-03-31."""
     electrode: str = "CSE"
     """What was read against, before the potentials were converted to CSE."""
+
+    @property
+    def holds_potentials(self) -> bool:
+        """Whether any of the points belongs to a half-cell; so it is of no points at all."""
+        return not all(point.instrument for point in self.points) or not self.points

@@ -13,13 +13,14 @@ PLACE = ("index", "label", "surface", "u_m", "v_m", "x_m", "y_m", "z_m")
 FIELDS = tuple(
     name
     for name in PointResult.model_fields
-    if name not in ("index", "label", "surface", "p_W", "uv_m", "values")
+    if name not in ("index", "label", "surface", "p_W", "uv_m", "instrument", "values", "units")
 )
 NUMBERS = ("_mv", "_n", "_s", "_m", "_ohm")
 """How the names of fields end that hold nothing but numbers."""
 COLUMNS = (*PLACE, *FIELDS)
 """Place first, then the fields of a PointResult under their own names, which hold the unit. What
-another instrument than a half-cell read follows in columns of its own names."""
+another instrument than a half-cell read follows in columns of its own names, each with its unit in
+the next one, behind a column ``instrument``."""
 
 
 def readings_csv(points: Sequence[PointResult]) -> str:
@@ -33,14 +34,30 @@ def readings_csv(points: Sequence[PointResult]) -> str:
     writer = csv.writer(text, lineterminator="\n")
     values = value_columns(points)
     writer.writerow((*COLUMNS, *map(_cell, values)))
-    writer.writerows(zip(*_columns(points), *values.values(), strict=True))
+    more = [list(map(_cell, column)) for column in values.values()]
+    writer.writerows(zip(*_columns(points), *more, strict=True))
     return text.getvalue()
 
 
-def value_columns(points: Sequence[PointResult]) -> dict[str, list[float | None]]:
-    """The values of other instruments by name, one for each point; None where it has none."""
-    names = dict.fromkeys(name for point in points for name in point.values)
-    return {name: [point.values.get(name) for point in points] for name in names}
+def value_columns(points: Sequence[PointResult]) -> dict[str, list[str | float | None]]:
+    """What other instruments than a half-cell read, as columns with one entry for each point.
+
+    The kind of the instrument, then each value by its name and its unit; None where a point has
+    none. There are no columns where no other instrument was read.
+    """
+    columns: dict[str, list[str | float | None]] = {}
+    if any(point.instrument for point in points):
+        columns["instrument"] = [point.instrument or None for point in points]
+    for name in value_names(points):
+        columns[name] = [point.values.get(name) for point in points]
+        if any(name in point.units for point in points):
+            columns[f"{name}_unit"] = [point.units.get(name) for point in points]
+    return columns
+
+
+def value_names(points: Iterable[PointResult]) -> tuple[str, ...]:
+    """The names of all that other instruments than a half-cell were to read at the points."""
+    return tuple(dict.fromkeys(name for p in points for name in (*p.units, *p.values)))
 
 
 def _columns(points: Sequence[PointResult]) -> Iterator[Iterable[object]]:

@@ -56,6 +56,14 @@ class PointReader:
     reasons: Callable[[Any], Mapping[float, str]] = no_reasons
     """Words for the numbers of ``InvalidReason`` that are its own, given the model of its
     sensor."""
+    has_fields: bool = False
+    """Whether its values are fields of ``PointResult``; else a point names instrument and units."""
+
+    def described(self) -> dict[str, Any]:
+        """What a point says of the instrument that was to be read there."""
+        if self.has_fields:
+            return {}
+        return {"instrument": self.kind, "units": self.reading.units()}
 
 
 @dataclass(frozen=True)

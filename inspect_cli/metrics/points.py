@@ -72,6 +72,7 @@ def _point(
         probe_force_n=_read(reading, "force_mean"),
         contact_s=_read(reading, "contact_s") or 0.0,
         **_true_touch(flight, target),
+        **reader.described(),
     )
     return reader.complete(flight, target, point, values if valid else {})
 

@@ -159,6 +159,7 @@ def _visited(results: Sequence[Result]) -> Iterable[PointResult]:
 
 
 def _never_read(target: Target) -> PointResult:
+    described = INSTRUMENTS[target.sensor].reader.described() if target.sensor else {}
     return PointResult(
         index=target.index,
         label=target.label,
@@ -169,6 +170,7 @@ def _never_read(target: Target) -> PointResult:
         uv_m=target.uv_m,
         probe_force_n=None,
         contact_s=0.0,
+        **described,
     )
 
 

@@ -50,6 +50,11 @@ class PointReading(Record):
         """Names of what the instrument read."""
         return tuple(field.name for field in cls.fields() if field.name not in COMMON)
 
+    @classmethod
+    def units(cls) -> dict[str, str]:
+        """Of what the instrument read, by name."""
+        return {field.name: field.unit for field in cls.fields() if field.name not in COMMON}
+
     def void(self, reason: InvalidReason) -> None:
         """Let it not count: its values are NaN."""
         self.valid, self.reason = 0.0, float(reason)

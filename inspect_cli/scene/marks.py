@@ -9,7 +9,8 @@ from typing import Protocol
 import numpy as np
 
 from inspect_cli.log.reader import RunLog
-from inspect_cli.records import Reading, Reference
+from inspect_cli.metrics.instruments import INSTRUMENTS
+from inspect_cli.records import Reference
 from inspect_cli.scene.materials import PLANNED, TRACE, Rgba
 from inspect_cli.scene.motion import Motion
 from inspect_cli.schema.modes import Phase
@@ -104,10 +105,11 @@ def _readings(
     log: RunLog, plan: Plan, result: Result, styles: Mapping[str, MarkStyle], radius: float
 ) -> dict[int, Mark]:
     """By the target's index: its last reading."""
-    rows = log.rows(Reading)
+    kinds = (INSTRUMENTS[name].reader.reading for name in plan.instruments)
+    found = (rows for rows in map(log.rows, kinds) if rows is not None)
     points = {point.index: point for point in result.points}
     marks: dict[int, Mark] = {}
-    for row in rows if rows is not None else ():
+    for row in (row for rows in found for row in rows):
         index = int(row["target"]) if np.isfinite(row["target"]) else -1
         if index not in points or not np.all(np.isfinite(row["p_WT"])):
             continue

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sized
 from typing import Annotated, Literal
 
 from pydantic import Field
@@ -39,8 +40,8 @@ class Metric(Strict):
     why: str = ""
 
 
-def _is_empty(values: dict[str, float]) -> bool:
-    return not values
+def _is_empty(values: Sized) -> bool:
+    return len(values) == 0
 
 
 class PointResult(Strict):
@@ -81,9 +82,13 @@ class PointResult(Strict):
     true_resistivity_ohm_m: float | None = None
     true_corrosion: Corrosion | None = None
     """What the combined rule says of the specimen under the tip."""
+    instrument: Annotated[str, Field(exclude_if=_is_empty)] = ""
+    """Kind of the instrument that was to be read; left out for a half-cell, whose values are fields
+    above."""
     values: Annotated[dict[str, float], Field(exclude_if=_is_empty)] = {}
-    """What another instrument than a half-cell read, by names of its own; left out where there is
-    nothing."""
+    """What that instrument read, by names of its own; left out where there is nothing."""
+    units: Annotated[dict[str, str], Field(exclude_if=_is_empty)] = {}
+    """Of its values, by the same names; known of invalid points, too."""
 
 
 class Result(Strict):

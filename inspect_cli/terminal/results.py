@@ -53,8 +53,9 @@ def _print_result(result: Result) -> None:
     why = f": {result.status_reason}" if result.status_reason else ""
     title = f"{result.mission} on {result.platform}{seed}: "
     out.print(Text.assemble(title, styled(result.status), why), soft_wrap=True)
-    if result.points:
-        out.print(_points_table(result.points))
+    for instrument in dict.fromkeys(point.instrument for point in result.points):
+        points = [point for point in result.points if point.instrument == instrument]
+        out.print(_values_table(instrument, points) if instrument else _points_table(points))
     for reason, labels in grouped((p.reason, p.label) for p in result.points).items():
         many = "s" if len(labels) > 1 else ""
         text = Text.assemble((f"point{many} {', '.join(labels)}: ", BAD), reason)
@@ -102,6 +103,21 @@ def _points_table(points: Sequence[PointResult]) -> Table:
             number(point.resistivity_ohm_m, ".0f"),
             number(point.probe_force_n, ".2f"),
             point.corrosion or "",
+        )
+    return table
+
+
+def _values_table(instrument: str, points: Sequence[PointResult]) -> Table:
+    """The readings of another instrument than a half-cell, under the names of its values."""
+    units = {name: unit for point in points for name, unit in point.units.items()}
+    heads = (f"{name}\n/{unit}" if unit != "1" else name for name, unit in units.items())
+    table = table_of(f"points of {instrument}", "point", "reading", *heads, "force\n/N")
+    for point in points:
+        table.add_row(
+            point.label,
+            styled("valid" if point.valid else "invalid"),
+            *(number(point.values.get(name), ".6g") for name in units),
+            number(point.probe_force_n, ".2f"),
         )
     return table
 

@@ -10,6 +10,7 @@ import numpy as np
 import pytest
 
 from inspect_cli import cli
+from inspect_cli.commands import study_pitch
 from inspect_cli.commands.fly import FlyOutcome
 from inspect_cli.commands.study import study
 from inspect_cli.commands.study_pitch import PITCH
@@ -377,6 +378,14 @@ def test_missions_without_a_grid_or_a_specimen_are_refused(
         study("pitch", mission, asked={"pitch": "0.3"})
     assert words in str(refused.value)
     assert str(mission) in str(refused.value)
+
+
+def test_an_instrument_that_cannot_be_sampled_is_refused(
+    mission: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(study_pitch, "VERDICTS", {"gauge": None})
+    with pytest.raises(InputError, match="cannot sample this task's instrument"):
+        study("pitch", mission, asked={"pitch": "0.3"})
 
 
 def test_each_pitch_can_be_flown_besides(mission: Path) -> None:

@@ -15,6 +15,7 @@ from pathlib import Path
 
 import numpy as np
 import outside_rows
+import outside_shown
 import pytest
 
 from inspect_cli.errors import SchemaError
@@ -162,16 +163,24 @@ structure:
 tasks:
   - tap: {{on: {surface}, at_m: [0.0, 0.0], up_m: 0.1, dwell_s: 1.5}}
     sensor: thermometer
-  - contact_points: {{on: wall, at_m: [[2.0, -0.1, 1.2]], dwell_s: 2}}
-    sensor: half_cell
-truth:
+{more}truth:
   structure: {{wall: {{specimen: {{model: slope, slope_vpm: -0.5}}}}}}
   disturbances: [{{kind: updraught, force_n: 2.0}}]
   faults: [{{sensor: altitude, fault: nan, start_s: 2.0, end_s: 3.0}}]
 acceptance:
   - {{metric: thermometer.mean_c, min: 17.4, max: 17.6}}
-  - {{metric: contact.points_valid, min: 3, max: 3}}
+  - {{metric: contact.points_valid, min: {points}, max: {points}}}
 """
+POTENTIAL = """\
+  - contact_points: {on: wall, at_m: [[2.0, -0.1, 1.2]], dwell_s: 2}
+    sensor: half_cell
+"""
+
+
+def mission(name: str, surface: str = "wall", *, potential: bool = True) -> str:
+    """A mission that reads with the instrument of the package, and with a half-cell."""
+    more, points = (POTENTIAL, 3) if potential else ("", 2)
+    return MISSION.format(name=name, surface=surface, more=more, points=points)
 
 
 @pytest.fixture(scope="module")
@@ -192,33 +201,55 @@ def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
     text = base.read_text(encoding="utf-8").replace("kind: tilt_rotor\n", "kind: survey_rotor\n")
     text = text.replace(f"name: {base.stem}\n", "name: survey_rotor\n")
     (campaign / "platforms" / "survey_rotor.yaml").write_text(text, encoding="utf-8")
-    for name in ("warm", "warmer"):
-        text = MISSION.format(name=name, surface="wall")
+    for text, name in ((mission("both"), "both"), (mission("warm", potential=False), "warm")):
         (campaign / "missions" / f"{name}.yaml").write_text(text)
     return folder
 
 
 def run(folder: Path, *arguments: str, exit_code: int = 0) -> str:
     """What ``inspect`` prints in a process that has the package."""
-    env = os.environ | {"PYTHONPATH": str(folder / "site")}
-    command = [sys.executable, "-m", "inspect_cli", *arguments]
-    done = subprocess.run(
-        command, cwd=folder / "campaign", env=env, capture_output=True, text=True, check=False
-    )
-    assert done.returncode == exit_code, done.stdout + done.stderr
+    done = python(folder, "-m", "inspect_cli", *arguments, exit_code=exit_code)
     return done.stdout if exit_code == 0 else done.stderr
 
 
+def python(folder: Path, *arguments: str, exit_code: int = 0) -> subprocess.CompletedProcess[str]:
+    """A process that has the package."""
+    env = os.environ | {"PYTHONPATH": str(folder / "site"), "COLUMNS": "200"}
+    done = subprocess.run(
+        [sys.executable, *arguments],
+        cwd=folder / "campaign",
+        env=env,
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+    assert done.returncode == exit_code, done.stdout + done.stderr
+    return done
+
+
+REPORT = ("-m", "inspect_cli", "report", "--no-pictures", "--export", "geojson,ifc")
+
+
 @pytest.fixture(scope="module")
-def flown(folder: Path) -> Path:
-    """The run of one of two missions that two workers fly, reported."""
+def runs(folder: Path) -> dict[str, Path]:
+    """The runs of two missions that two workers fly, by name."""
     out = folder / "runs"
     options = ("--jobs", "2", "--update", "--out", str(out), "--json")
     report = json.loads(run(folder, "regress", *options))
     assert [flight["verdict"] for flight in report["missions"]] == ["pass", "pass"]
-    flown = out / "warm" / "with_thermometer-seed1"
-    run(folder, "report", str(flown), "--no-pictures")
-    return flown
+    return {name: out / name / "with_thermometer-seed1" for name in ("both", "warm")}
+
+
+@pytest.fixture(scope="module")
+def in_terminal(folder: Path, runs: dict[str, Path]) -> dict[str, str]:
+    """What the terminal shows when each run is reported."""
+    return {name: python(folder, *REPORT, str(run)).stderr for name, run in runs.items()}
+
+
+@pytest.fixture(scope="module")
+def flown(runs: dict[str, Path], in_terminal: dict[str, str]) -> Path:
+    """The run with both instruments, reported."""
+    return runs["both"]
 
 
 @pytest.fixture(scope="module")
@@ -231,7 +262,9 @@ def test_its_instrument_is_read_beside_the_half_cell(flown: Path) -> None:
     first, second, potential = metrics["points"]
     assert first["values"]["temperature"] == pytest.approx(20.0 - 2.0 * 1.2, abs=0.02)
     assert second["values"]["temperature"] == pytest.approx(20.0 - 2.0 * 1.3, abs=0.02)
-    assert "values" not in potential
+    assert first["instrument"] == second["instrument"] == "thermometer"
+    assert first["units"] == {"temperature": "°C"}
+    assert not {"instrument", "values", "units"} & potential.keys()
     assert metrics["metrics"]["thermometer.mean_c"]["unit"] == "°C"
     # Its specimen: −0.2 V − 0.5 V/m · 0.1 m, and what a placement error of 5 mm and noise make.
     assert potential["potential_mv"] == pytest.approx(-250.0, abs=6.0)
@@ -241,6 +274,26 @@ def test_its_chapter_stands_in_the_report(flown: Path) -> None:
     page = (flown / "report.html").read_text(encoding="utf-8")
     assert "Temperatures of the surface" in page
     assert "Point 1: 17.60 degrees." in page or "Point 1: 17.59 degrees." in page
+
+
+def test_its_points_are_shown_beside_those_of_the_half_cell(
+    flown: Path, in_terminal: dict[str, str]
+) -> None:
+    outside_shown.in_terminal(in_terminal["both"])
+    outside_shown.on_page((flown / "report.html").read_text(encoding="utf-8"))
+    outside_shown.handed_out(flown)
+
+
+def test_the_half_cell_is_silent_where_it_read_nothing(
+    runs: dict[str, Path], in_terminal: dict[str, str]
+) -> None:
+    assert "potential" not in in_terminal["warm"]
+    outside_shown.without_half_cell(runs["warm"])
+
+
+def test_pictures_mark_the_points_of_both(folder: Path, flown: Path) -> None:
+    legend = python(folder, "-c", outside_shown.LEGEND, str(flown / "flight.mcap")).stdout
+    assert legend.strip() == "['uncertain', 'reading']"
 
 
 def test_its_task_is_planned_for_its_kind_of_platform(flown: Path) -> None:
@@ -271,11 +324,11 @@ def test_its_disturbance_acts(log: RunLog) -> None:
 
 def test_the_surface_that_its_task_names_must_be_there(folder: Path, tmp_path: Path) -> None:
     (tmp_path / "missions").mkdir()
-    mission = tmp_path / "missions" / "cold.yaml"
-    mission.write_text(MISSION.format(name="cold", surface="wal"))
+    cold = tmp_path / "missions" / "cold.yaml"
+    cold.write_text(mission("cold", surface="wal"))
     shutil.copytree(folder / "campaign" / "platforms", tmp_path / "platforms")
-    message = " ".join(run(folder, "plan", str(mission), exit_code=2).split())
-    line = mission.read_text().split("on: wal,")[0].count("\n") + 1
+    message = " ".join(run(folder, "plan", str(cold), exit_code=2).split())
+    line = cold.read_text().split("on: wal,")[0].count("\n") + 1
     assert f"cold.yaml:{line}:" in message
     assert "no surface is named 'wal'" in message
 

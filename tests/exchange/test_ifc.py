@@ -64,6 +64,25 @@ def test_every_reading_is_a_proxy_at_its_place_with_its_values() -> None:
     assert groups == {"deck": 2, "soffit": 2}
 
 
+def test_what_another_instrument_read_has_a_property_set_of_its_own() -> None:
+    warm = {"instrument": "thermometer", "units": {"temperature": "°C"}, "astm_class": None}
+    read = point(1, values={"temperature": 12.5}, **warm)
+    lost = point(2, valid=False, reason="not visited", **warm)
+    model = opened(ifc(HandedReadings((point(0), read, lost), "both")))
+    proxies = model.by_type("IfcBuildingElementProxy")
+    sets = [ifcopenshell.util.element.get_psets(proxy) for proxy in proxies]
+    assert [next(iter(found)) for found in sets] == [
+        *("HalfCellPotential", "InstrumentReading", "InstrumentReading")
+    ]
+    held, nothing = (found["InstrumentReading"] for found in sets[1:])
+    assert (held["Instrument"], held["temperature"]) == ("thermometer", 12.5)
+    assert (held["temperature unit"], held["Valid"]) == ("°C", True)
+    assert "temperature" not in nothing
+    assert (nothing["WhyInvalid"], nothing["Valid"]) == ("not visited", False)
+    assert "Potential" not in held
+    assert proxies[1].ObjectType == "Reading by thermometer"
+
+
 def test_lengths_are_metres_and_potentials_millivolts() -> None:
     model = opened(ifc(handed()))
     units = model.by_type("IfcProject")[0].UnitsInContext.Units

@@ -48,6 +48,15 @@ def test_what_another_instrument_read_has_columns_of_its_own() -> None:
     assert [row["temperature_c"] for row in rows] == ["", "12.5"]
 
 
+def test_units_and_instrument_stand_beside_what_was_read() -> None:
+    warm = {"instrument": "thermometer", "units": {"temperature": "°C"}}
+    read = point(1, values={"temperature": 12.5}, **warm)
+    lost = point(2, valid=False, reason="not visited", **warm)
+    rows = rows_of(readings_csv([point(0), read, lost]))
+    shown = [(row["instrument"], row["temperature"], row["temperature_unit"]) for row in rows]
+    assert shown == [("", "", ""), ("thermometer", "12.5", "°C"), ("thermometer", "", "°C")]
+
+
 @pytest.mark.parametrize("start", ["=1+1", "+1", "-1", "@SUM(A1)", "\t=1", "\r=1", "'=1"])
 def test_no_text_runs_as_a_formula(start: str) -> None:
     points = [point(0, label=start, surface=start, valid=False, reason=start, potential_mv=-5.5)]

@@ -96,7 +96,7 @@ def reasons(probe: HalfCellModel) -> Mapping[float, str]:
     }
 
 
-READER = PointReader("half_cell", Reading, complete, reasons)
+READER = PointReader("half_cell", Reading, complete, reasons, has_fields=True)
 
 
 def false_valid_points(flight: FlightData) -> float:

@@ -12,6 +12,7 @@ from dataclasses import dataclass
 
 from inspect_cli.reporting.chapters.material import Material
 from inspect_cli.reporting.content.blocks import Block, Box
+from inspect_cli.reporting.figures.scene_marks import SceneMarks
 from inspect_cli.reporting.words.text import Text
 
 
@@ -24,6 +25,10 @@ def _no_boxes(material: Material) -> Iterable[Box]:
 
 
 def _no_text(material: Material) -> Iterable[Text]:
+    return ()
+
+
+def _no_marks(material: Material) -> Iterable[SceneMarks]:
     return ()
 
 
@@ -47,6 +52,11 @@ class Chapter:
     """Key figures for the summary."""
     caveats: Callable[[Material], Iterable[Text]] = _no_text
     """What the chapter's numbers do not say."""
+    instruments: tuple[str, ...] = ()
+    """Kinds of the instruments whose points the chapter shows; it applies wherever one of them was
+    read. Points of an instrument that no chapter names stand in the chapter on other readings."""
+    scene_marks: Callable[[Material], Iterable[SceneMarks]] = _no_marks
+    """What it adds to the view of the structure in the chapter on the flight."""
     metric_groups: tuple[str, ...] = ()
     """Groups of metrics (the part of a name before its dot) that the chapter's own table shows."""
     shared_groups: tuple[str, ...] = ()

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from inspect_cli.metrics.instruments import INSTRUMENTS
 from inspect_cli.reporting.chapters.chapter import Chapter
 from inspect_cli.reporting.chapters.material import Material
 from inspect_cli.reporting.content.blocks import Block, Heading, drawn
@@ -14,7 +15,7 @@ from inspect_cli.reporting.flight.tracking import tracking_figures
 from inspect_cli.reporting.words.text import say
 
 ERROR_GROUPS = ("tracking", "estimation")
-CONTACT_GROUPS = ("contact", "half_cell")
+CONTACT_GROUPS = ("contact", *INSTRUMENTS)
 
 
 def _blocks(material: Material) -> list[Block]:
@@ -29,7 +30,7 @@ def _blocks(material: Material) -> list[Block]:
         Heading(say("Actuators")),
         *drawn(actuator_figures(log, timeline)),
         Heading(say("Path in space")),
-        *drawn([scene_figure(log, material.plan, material.points)]),
+        *drawn([scene_figure(log, material.plan, material.scene_marks)]),
         Heading(say("Modes and events")),
         *drawn([modes] if modes else []),
         *events_table(log),
@@ -45,7 +46,8 @@ def _forces(material: Material) -> list[Block]:
         wrench = [figure for figure in forces if figure.name != "force"]
         return [Heading(say("External wrench")), *drawn(wrench, side_by_side=True)]
     caption = say("Contact and readings.") if profile.readings else say("Contact.")
-    groups = [group for group in CONTACT_GROUPS if group not in material.hidden_groups]
+    elsewhere = material.hidden_groups | material.own_groups
+    groups = [group for group in CONTACT_GROUPS if group not in elsewhere]
     seen = drawn(surface_figures(material.log, timeline))
     return [
         Heading(say("Contact force and external wrench")),

@@ -12,6 +12,7 @@ from inspect_cli.log.reader import RunLog
 from inspect_cli.records import Reference
 from inspect_cli.reporting.content.read_points import ReadPoint, read_points
 from inspect_cli.reporting.figures.rows import rows_of
+from inspect_cli.reporting.figures.scene_marks import SceneMarks
 from inspect_cli.reporting.figures.timeline import Timeline, timeline_of
 from inspect_cli.reporting.flight.mission_profile import MissionProfile, mission_profile
 from inspect_cli.schema.coverage import CoveragePlan
@@ -66,6 +67,10 @@ class Material:
     pictures: Rendered | None = None
     coverage: Coverage | None = None
     """None for a single flight."""
+    shown_instruments: frozenset[str] = frozenset()
+    """Instruments whose points a chapter shows: see ``Chapter.instruments``."""
+    scene_marks: Sequence[SceneMarks] = ()
+    """What chapters add to the view of the structure."""
     own_groups: frozenset[str] = frozenset()
     """Groups of metrics that chapters show in tables of their own."""
     hidden_groups: frozenset[str] = frozenset()
@@ -75,6 +80,15 @@ class Material:
     def points(self) -> tuple[ReadPoint, ...]:
         """The points that stand for readings, in the order of their labels."""
         return read_points(self.result, self.plan)
+
+    @property
+    def other_points(self) -> tuple[ReadPoint, ...]:
+        """The points of instruments that have no chapter of their own."""
+        return tuple(p for p in self.points if p.instrument not in self.shown_instruments)
+
+    def read_by(self, instrument: str) -> tuple[ReadPoint, ...]:
+        """The points that an instrument was to read, in the order of their labels."""
+        return tuple(p for p in self.points if p.instrument == instrument)
 
     @cached_property
     def profile(self) -> MissionProfile:

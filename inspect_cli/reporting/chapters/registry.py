@@ -16,6 +16,7 @@ from inspect_cli.reporting.chapters import (
     pictures,
     provenance,
     pulls,
+    readings,
     servoing,
     sorties,
     structure,
@@ -28,6 +29,7 @@ GROUP = "inspect_cli.chapters"
 CHAPTERS: Mapping[str, Chapter] = {
     "pictures": pictures.CHAPTER,
     "survey": half_cell.CHAPTER,
+    "readings": readings.CHAPTER,
     "drawing": drawing.CHAPTER,
     "servoing": servoing.CHAPTER,
     "contact": contact.CHAPTER,

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
+from inspect_cli.metrics.instruments import INSTRUMENTS
 from inspect_cli.reporting.chapters.chapter import Chapter
 from inspect_cli.reporting.content.blocks import REPORT_NAME, Block, Column, Table, drawn
 from inspect_cli.reporting.content.metrics_table import metrics_table
@@ -12,6 +13,12 @@ from inspect_cli.reporting.words.recorded import recorded
 from inspect_cli.reporting.words.text import NOTHING, Chip, Link, Text, number, say, separated
 from inspect_cli.schema.coverage import CoveragePlan, Sortie
 from inspect_cli.schema.result import Result
+
+SHOWN_GROUPS = (
+    *("tracking", "estimation", "guidance", "contact", *INSTRUMENTS),
+    *("flight", "actuators"),
+)
+"""Groups of metrics in the table on all sorties together."""
 
 
 def _sorties(survey: CoveragePlan, result: Result, flown: Sequence[Result]) -> list[Block]:
@@ -36,11 +43,10 @@ def _sorties(survey: CoveragePlan, result: Result, flown: Sequence[Result]) -> l
         budget=number(survey.budget_wh, 1),
     )
     together = say("All sorties together: sums, worst cases and means.")
-    shown = ("tracking", "estimation", "guidance", "contact", "half_cell", "flight", "actuators")
     return [
         Table(caption, columns, rows, wide=True),
         *drawn([energy_figure(survey, flown)]),
-        *metrics_table(together, result, shown),
+        *metrics_table(together, result, SHOWN_GROUPS),
     ]
 
 

@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Sequence
 from dataclasses import dataclass
 
+from inspect_cli.reporting.figures.figure import words
 from inspect_cli.reporting.words.recorded import recorded
-from inspect_cli.reporting.words.text import Text
-from inspect_cli.schema.plan import Plan, PlannedSurface, Target
+from inspect_cli.reporting.words.text import Text, together
+from inspect_cli.schema.plan import Plan, Target
 from inspect_cli.schema.result import PointResult, Result
 
 
@@ -30,6 +30,11 @@ class ReadPoint:
         return recorded(self.point.reason)
 
     @property
+    def instrument(self) -> str:
+        """Kind of the instrument that was to be read there; empty where the plan names none."""
+        return (self.target.sensor if self.target else None) or ""
+
+    @property
     def is_reading(self) -> bool:
         """Whether the plan wanted an instrument read there."""
         return self.target is None or self.target.sensor is not None
@@ -47,19 +52,12 @@ def read_points(result: Result, plan: Plan) -> tuple[ReadPoint, ...]:
     return tuple(sorted(readings, key=lambda p: _label_order(p.point.label)))
 
 
+def reason_text(p: ReadPoint) -> Text:
+    """The text that a figure shows for an invalid reading under the pointer."""
+    return together(words(p.point.label), ": ", words(p.reason))
+
+
 def _label_order(label: str) -> list[tuple[int, int, str]]:
     """A key that sorts the digits within a label as the numbers that they are."""
     parts = re.findall(r"[0-9]+|[^0-9]+", label)
     return [(0, int(part), "") if part.isdecimal() else (1, 0, part) for part in parts]
-
-
-def by_surface(
-    points: Sequence[ReadPoint], plan: Plan
-) -> list[tuple[PlannedSurface, list[ReadPoint]]]:
-    """The surfaces that carry points with coordinates, each with its points."""
-    groups = []
-    for surface in plan.surfaces:
-        own = [p for p in points if p.surface == surface.name and p.point.uv_m is not None]
-        if own:
-            groups.append((surface, own))
-    return groups

@@ -63,9 +63,14 @@ def survey_document(
 
 def _document(material: Material) -> Document:
     known = chapters()
+    material = replace(
+        material,
+        shown_instruments=frozenset(kind for c in known.values() for kind in c.instruments),
+    )
     written = {name: chapter for name, chapter in known.items() if chapter.applies(material)}
     material = replace(
         material,
+        scene_marks=[marks for c in written.values() for marks in c.scene_marks(material)],
         own_groups=frozenset(g for chapter in known.values() for g in chapter.metric_groups),
         hidden_groups=_groups(known.values()) - _groups(written.values()),
     )

@@ -89,6 +89,8 @@ CORROSION_STYLES = {
     "possible": ClassStyle(say("possible"), ORANGE, "square"),
     "active": ClassStyle(say("active"), VERMILION, "diamond"),
 }
+READ_STYLE = ClassStyle(say("reading"), BLUE, "circle")
+"""Of valid readings that have no class."""
 INVALID_STYLE = ClassStyle(say("invalid reading"), INK, "x-thin")
 
 PHASE_COLOURS: dict[Phase, tuple[str, ...]] = {

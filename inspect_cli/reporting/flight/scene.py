@@ -1,4 +1,4 @@
-"""The structure, the flight around it and the readings on it, in three dimensions."""
+"""The structure, the flight around it and what chapters mark on it, in three dimensions."""
 
 from __future__ import annotations
 
@@ -8,11 +8,9 @@ import numpy as np
 
 from inspect_cli.log.reader import RunLog
 from inspect_cli.records import Estimate, State
-from inspect_cli.reporting.content.read_points import ReadPoint
 from inspect_cli.reporting.figures.figure import Figure, Json, numbers, words
 from inspect_cli.reporting.figures.palette import (
     ESTIMATE,
-    INK,
     MUTED,
     REFERENCE,
     TIP,
@@ -20,15 +18,8 @@ from inspect_cli.reporting.figures.palette import (
     LineStyle,
 )
 from inspect_cli.reporting.figures.rows import rows_of
-from inspect_cli.reporting.half_cell.potential_scale import (
-    colour_axis,
-    colour_bar,
-    colours,
-    hover_text,
-    potential_range,
-    potentials_of,
-)
-from inspect_cli.reporting.words.text import Text, say, together
+from inspect_cli.reporting.figures.scene_marks import SceneMarks
+from inspect_cli.reporting.words.text import Text, say, sentences, together
 from inspect_cli.schema.plan import Plan, PlannedSurface
 from inspect_cli.schema.primitives import primitive_of
 from inspect_cli.spatial.arrays import Points, Vector
@@ -41,8 +32,8 @@ CLOUD_POINTS = 3000
 CURVED_NODES = 25
 
 
-def scene_figure(log: RunLog, plan: Plan, points: Sequence[ReadPoint]) -> Figure:
-    """Surfaces, planned and flown path, contact points by potential; equal scales."""
+def scene_figure(log: RunLog, plan: Plan, marks: Sequence[SceneMarks]) -> Figure:
+    """Surfaces, planned and flown path, and what chapters mark; equal scales."""
     traces = [_surface(surface) for surface in plan.surfaces]
     traces.append(_path(say("planned path"), _planned_path(plan), REFERENCE, "dash"))
     for record, position, style, name in (
@@ -54,10 +45,10 @@ def scene_figure(log: RunLog, plan: Plan, points: Sequence[ReadPoint]) -> Figure
         if rows is not None:
             shown = "legendonly" if style is TIP else True
             traces.append({**_path(name, rows[position], style, "solid"), "visible": shown})
-    traces += [*_readings(points), *_cloud(log)]
+    traces += [*(trace for one in marks for trace in one.traces), *_cloud(log)]
     layout: Json = {
         "margin": {"l": 0, "r": 0, "t": 30, "b": 70},
-        "coloraxis": colour_axis(potential_range(potentials_of(points))),
+        **{name: part for one in marks for name, part in one.layout.items()},
         "scene": {
             "aspectmode": "data",
             "camera": {"eye": _eye(plan), "center": {"x": 0, "y": 0, "z": -0.2}},
@@ -66,9 +57,14 @@ def scene_figure(log: RunLog, plan: Plan, points: Sequence[ReadPoint]) -> Figure
     }
     return Figure(
         "scene",
-        say(
-            "Structure as the planner believed it, path of the body, and where the tool was "
-            "believed to touch, coloured by potential; equal scales on all axes. Drag to turn."
+        sentences(
+            [
+                say(
+                    "Structure as the planner believed it, path of the body, and where the tool "
+                    "was believed to touch; equal scales on all axes. Drag to turn."
+                ),
+                *(one.sentence for one in marks),
+            ]
         ),
         say("Three-dimensional view of the structure, the path and the readings."),
         traces,
@@ -127,41 +123,6 @@ def _path(name: Text, p_W: Points, style: LineStyle, dash: str) -> Json:
         "z": z,
         "line": {"color": style.colour, "width": 3, "dash": dash},
         "hoverinfo": "name",
-    }
-
-
-def _readings(points: Sequence[ReadPoint]) -> list[Json]:
-    valid = [p for p in points if p.point.potential_mv is not None]
-    invalid = [p for p in points if p.point.potential_mv is None]
-    traces = []
-    if valid:
-        marker = {
-            "size": 6,
-            "color": colours(potentials_of(valid), potential_range(potentials_of(valid))),
-            "line": {"width": 1, "color": INK},
-        }
-        hover = [hover_text(p) for p in valid]
-        traces.append(_markers(say("valid readings"), valid, marker, hover))
-        traces.append(colour_bar("scatter3d"))
-    if invalid:
-        marker = {"size": 5, "symbol": "x", "color": INK}
-        hover = [together(words(p.point.label), ": ", words(p.reason)) for p in invalid]
-        traces.append(_markers(say("invalid readings"), invalid, marker, hover))
-    return traces
-
-
-def _markers(name: Text, points: Sequence[ReadPoint], marker: Json, hover: Sequence[Text]) -> Json:
-    x, y, z = (numbers([p.point.p_W[k] for p in points]) for k in range(3))
-    return {
-        "type": "scatter3d",
-        "mode": "markers",
-        "name": name,
-        "x": x,
-        "y": y,
-        "z": z,
-        "marker": marker,
-        "customdata": hover,
-        "hovertemplate": "%{customdata}<extra></extra>",
     }
 
 

@@ -8,12 +8,21 @@ from dataclasses import dataclass
 from inspect_cli.assessment.assess import Assessed
 from inspect_cli.assessment.surface_findings import SurfaceFindings
 from inspect_cli.reporting.content.blocks import Column, Table
+from inspect_cli.reporting.content.point_columns import (
+    MOST_POINTS,
+    Filled,
+    contact_columns,
+    filled_table,
+    named_columns,
+    place_columns,
+    rows_left_out,
+    validity_column,
+)
 from inspect_cli.reporting.content.read_points import ReadPoint
 from inspect_cli.reporting.half_cell.class_chips import class_chip
 from inspect_cli.reporting.half_cell.places import index_of_places, place_key, points_on
 from inspect_cli.reporting.words.text import (
     NOTHING,
-    Chip,
     Text,
     number,
     say,
@@ -23,11 +32,6 @@ from inspect_cli.reporting.words.text import (
 
 CERTAIN = 0.999
 """Probability of a class above which it is not stated."""
-MOST_POINTS = 1000
-"""Rows of a table of points; ``readings.csv`` has all of them."""
-
-Filled = tuple[Column, Sequence[Text]]
-"""A column and its cells."""
 
 
 @dataclass(frozen=True)
@@ -45,16 +49,13 @@ def points_table(points: Sequence[ReadPoint], evaluated: Sequence[SurfaceFinding
     shown = points[:MOST_POINTS]
     sure = sureness_of(shown, evaluated)
     columns: list[Filled] = [
-        (Column(say("Point")), [p.point.label for p in shown]),
-        (Column(say("Surface")), [p.surface or NOTHING for p in shown]),
-        *_places(shown),
+        *named_columns(shown),
+        *place_columns(shown),
         *_read(shown),
         *_judged(shown, sure),
-        *_touched(shown),
-        (Column(say("Validity"), prose=True), [_validity(p) for p in shown]),
+        *contact_columns(shown),
+        validity_column(shown),
     ]
-    kept = [(column, cells) for column, cells in columns if any(map(_says_something, cells))]
-    rows = list(zip(*(cells for _, cells in kept), strict=True))
     caption = sentences(
         [
             say("Readings by point."),
@@ -68,7 +69,7 @@ def points_table(points: Sequence[ReadPoint], evaluated: Sequence[SurfaceFinding
             rows_left_out(len(points)),
         ]
     )
-    return Table(caption, [column for column, _ in kept], rows, wide=True)
+    return filled_table(caption, columns)
 
 
 def sureness_of(
@@ -100,14 +101,6 @@ def _at(
         float(assessed.probabilities[place, assessed.astm[place]]),
         bool(assessed.doubtful[place]),
     )
-
-
-def _places(points: Sequence[ReadPoint]) -> list[Filled]:
-    uv = [p.point.uv_m or (None, None) for p in points]
-    return [
-        (Column(name, "m", numeric=True), [number(place[axis], 3) for place in uv])
-        for axis, name in enumerate("uv")
-    ]
 
 
 def _read(points: Sequence[ReadPoint]) -> list[Filled]:
@@ -154,38 +147,3 @@ def _certainty(sure: Sureness | None) -> Text:
     percent = 100.0 * sure.own_class
     digits = 1 if percent > 99.0 else 0
     return together(number(percent, digits), " %", " ?" if sure.doubtful else "")
-
-
-def _touched(points: Sequence[ReadPoint]) -> list[Filled]:
-    found = [p.point for p in points]
-    return [
-        (
-            Column(say("Probe force"), "N", numeric=True),
-            [number(point.probe_force_n, 2) for point in found],
-        ),
-        (
-            Column(say("Contact"), "s", numeric=True),
-            [number(point.contact_s, 1) for point in found],
-        ),
-    ]
-
-
-def _validity(p: ReadPoint) -> Text:
-    return (
-        say("valid") if p.point.valid else Chip(say("invalid: {reason}", reason=p.reason), "fail")
-    )
-
-
-def _says_something(cell: Text) -> bool:
-    return bool(getattr(cell, "value", cell) not in (None, NOTHING))
-
-
-def rows_left_out(points: int) -> Text:
-    """A sentence on the points that the table leaves out; empty if it has all."""
-    if points <= MOST_POINTS:
-        return ""
-    return say(
-        "The first {shown} of {n} points; readings.csv beside this report has all of them.",
-        shown=number(MOST_POINTS, 0),
-        n=number(points, 0),
-    )

@@ -6,6 +6,7 @@ from collections.abc import Iterable
 
 from inspect_cli.log.reader import RunLog
 from inspect_cli.reporting.content.blocks import Facts
+from inspect_cli.reporting.content.read_points import ReadPoint
 from inspect_cli.reporting.words.text import (
     NOTHING,
     Listed,
@@ -19,10 +20,10 @@ from inspect_cli.schema.plan import Plan
 from inspect_cli.schema.vehicle import HalfCellModel
 
 
-def reading_method(log: RunLog, plan: Plan) -> Facts:
-    """How the readings were taken, in the order of an inspection report."""
+def reading_method(log: RunLog, plan: Plan, points: Iterable[ReadPoint]) -> Facts:
+    """How the readings at these points were taken, in the order of an inspection report."""
     probe = log.platform().sensor(HalfCellModel)
-    pressed = [target for target in plan.targets if target.kind == "contact"]
+    pressed = [p.target for p in points if p.target is not None]
     force = number(max((t.expected_force_n for t in pressed), default=None), 2)
     counts = say(
         "the load cell shows ≥ {force} N for ≥ {time} s and the potential stays within {band} mV "

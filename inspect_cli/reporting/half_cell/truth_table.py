@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from inspect_cli.reporting.content.blocks import Block, Column, Table
+from inspect_cli.reporting.content.point_columns import MOST_POINTS, rows_left_out
 from inspect_cli.reporting.content.read_points import ReadPoint
 from inspect_cli.reporting.half_cell.class_chips import class_chip
-from inspect_cli.reporting.half_cell.point_table import MOST_POINTS, rows_left_out
 from inspect_cli.reporting.words.text import Text, number, say, sentences
 from inspect_cli.schema.result import PointResult
 

@@ -30,6 +30,7 @@ from inspect_cli.reporting.half_cell.histogram import histogram_figure
 from inspect_cli.reporting.half_cell.places import shared_range
 from inspect_cli.reporting.half_cell.potential_map import map_figure
 from inspect_cli.reporting.half_cell.resistivity import resistivity_figure
+from inspect_cli.reporting.half_cell.scene_marks import scene_marks
 from inspect_cli.reporting.paper.plot_axes import round_ticks
 from inspect_cli.reporting.paper.plot_scale import SCALES, MapScale, scale_for
 from inspect_cli.reporting.paper.plot_text import label_lines, rgba
@@ -63,7 +64,7 @@ def figures() -> dict[str, Figure]:
         *force_figures(log, flight.plan, timeline),
         *actuator_figures(log, timeline),
         modes_figure(log),
-        scene_figure(log, flight.plan, points),
+        scene_figure(log, flight.plan, [scene_marks(points)]),
     ]
     return {figure.name: figure for figure in found if figure is not None}
 
