@@ -11,16 +11,16 @@ Entry points belong to the installation, so that worker processes find the same 
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from importlib.metadata import EntryPoint, entry_points
-from typing import TypeVar
+from typing import Any, TypeVar
 
 from inspect_cli.errors import EnvironmentFault
 
 T = TypeVar("T")
 
 
-def registered(group: str, builtin: Mapping[str, T]) -> dict[str, T]:
+def registered(group: str, builtin: Mapping[str, T], kind: Any = None) -> dict[str, T]:
     """The built-in rows of a registry in their order, then those of installed packages by name.
 
     Rows of packages are ordered by name and not by how the packages were found, so that two
@@ -29,9 +29,10 @@ def registered(group: str, builtin: Mapping[str, T]) -> dict[str, T]:
     Args:
         group: the group of entry points, such as ``"inspect_cli.chapters"``
         builtin: name -> thing, as this package brings it
+        kind: the class of which every row is an instance or a subclass; Callable: what is called
 
     Raises:
-        EnvironmentFault: an entry point cannot be imported, or its name is already taken.
+        EnvironmentFault: an entry point cannot be imported, is no ``kind``, or its name is taken.
     """
     rows = dict(builtin)
     for point in sorted(entry_points(group=group), key=lambda point: (point.name, point.value)):
@@ -42,13 +43,25 @@ def registered(group: str, builtin: Mapping[str, T]) -> dict[str, T]:
             )
         try:
             rows[point.name] = point.load()
-        except (ImportError, AttributeError) as error:
-            raise EnvironmentFault(
-                f"{_origin(point)} registers {point.name!r} in {group} as {point.value}, "
-                f"which cannot be imported: {error}",
-                hint="repair that package or uninstall it",
-            ) from error
+        except (Exception, SystemExit) as error:  # it is other people's code that runs here
+            raise _broken(point, f"which cannot be imported: {error!r}") from error
+        if kind is not None and not _is_a(rows[point.name], kind):
+            raise _broken(point, f"which is no {kind.__name__}")
     return rows
+
+
+def _is_a(row: object, kind: Any) -> bool:
+    """Whether a row is an instance of ``kind`` or, where it is a class, a subclass."""
+    if kind is Callable:
+        return callable(row)
+    return issubclass(row, kind) if isinstance(row, type) else isinstance(row, kind)
+
+
+def _broken(point: EntryPoint, why: str) -> EnvironmentFault:
+    return EnvironmentFault(
+        f"{_origin(point)} registers {point.name!r} in {point.group} as {point.value}, {why}",
+        hint="repair that package or uninstall it",
+    )
 
 
 def _origin(point: EntryPoint) -> str:

@@ -59,10 +59,10 @@ class Executive:
         """Put orders in front of those that wait; the mode that runs comes to its end first.
 
         Raises:
-            KeyError: the vehicle has no such mode.
+            InputError: the vehicle has no such mode.
         """
         for order in orders:
-            self._behaviour.modes[order.mode]
+            self._behaviour.mode(order.mode)
         self._queue.extendleft(reversed(orders))
 
     def update(self, t_s: float) -> Order | None:
@@ -95,13 +95,13 @@ class Executive:
         if not self._queue:
             self.finished = True
             return None
-        if self._behaviour.modes[self._queue[0].mode].guard(self.context):
+        if self._behaviour.mode(self._queue[0].mode).guard(self.context):
             return None
         self.mode.end(self.context)
         return self._begin(self._queue.popleft())
 
     def _begin(self, order: Order) -> Order:
-        mode = self._behaviour.modes[order.mode]
+        mode = self._behaviour.mode(order.mode)
         self.context.enter(self.context.t_s, mode, order)
         mode.begin(self.context, order)
         return order
@@ -157,7 +157,7 @@ class Executive:
         orders: Sequence[Order] = ()
         for fallback in row.fallbacks:
             orders = fallback(self.context)
-            needs = {need for order in orders for need in self._behaviour.modes[order.mode].needs}
+            needs = {need for order in orders for need in self._behaviour.mode(order.mode).needs}
             if all(map(self.context.is_fresh, needs)):
                 break
         return orders

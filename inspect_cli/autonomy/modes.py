@@ -11,6 +11,7 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
+from inspect_cli.errors import InputError
 from inspect_cli.interfaces import Posture
 from inspect_cli.schema.modes import ModeRow, ModeTable, Phase
 
@@ -81,6 +82,34 @@ class Behaviour:
     """Orders that end a flight from any mode, given the Context."""
     context: Callable[..., Context]
     """Makes the Context of one flight: (plan, stack, judges)."""
+
+    def __post_init__(self) -> None:
+        """Refuse tables that do not fit together.
+
+        Raises:
+            InputError: a mode that is named is not there, two modes have one number, or a failsafe
+                leads to nothing.
+        """
+        numbers = [mode.number for mode in self.modes.values()]
+        if len({*numbers}) < len(numbers):
+            raise InputError("two modes of the vehicle have the same number")
+        self.mode(self.first)
+        for row in self.failsafes:
+            for name in row.modes:
+                self.mode(name)
+            if not row.fallbacks:
+                raise InputError(f"the failsafe {row.name!r} has no fallback")
+
+    def mode(self, name: str) -> Mode:
+        """The mode of a name.
+
+        Raises:
+            InputError: the vehicle has none.
+        """
+        if name not in self.modes:
+            known = ", ".join(self.modes)
+            raise InputError(f"the vehicle has no mode {name!r}", hint=f"it has: {known}")
+        return self.modes[name]
 
     @property
     def table(self) -> ModeTable:

@@ -42,7 +42,9 @@ from inspect_cli.schema.result import Metric
 from inspect_cli.schema.study import StudyColumn, StudyResult, StudyVariant
 from inspect_cli.schema.survey import LanguageCode
 
-STUDIES: dict[str, Study] = registered("inspect_cli.studies", {"force": FORCE, "pitch": PITCH})
+STUDIES: dict[str, Study] = registered(
+    "inspect_cli.studies", {"force": FORCE, "pitch": PITCH}, Study
+)
 """Every study by its name: one row each, and those of installed packages. The command line takes
 its options from here."""
 

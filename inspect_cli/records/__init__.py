@@ -18,8 +18,9 @@ Frames: see ``inspect_cli.spatial``.
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Protocol, TypeAlias
+from typing import TypeAlias
 
 from inspect_cli.records.half_cell import Probe, Reading
 from inspect_cli.records.reading import InvalidReason, PointReading
@@ -211,20 +212,18 @@ class Command(Record):
     saturated = scalar("1", "1 if the allocation had to scale the wrench down, else 0")
 
 
-class Pixels(Protocol):
+@dataclass(frozen=True)
+class Pixels:
     """What a depth camera holds of its last image, in its frame D; m."""
 
-    def all(self) -> Points:
-        """Points (rows, columns, 3); NaN for pixels without a return."""
-        ...
+    all: Callable[[], Points]
+    """Points (rows, columns, 3); NaN for pixels without a return."""
+    near: Callable[[Vector, Vector, float], Points]
+    """Points (n, 3) of the pixels that may lie within a radius, m, of a line, row by row.
 
-    def near(self, p_D: Vector, axis_D: Vector, radius_m: float) -> Points:
-        """Points (n, 3) of the pixels that may lie within ``radius_m`` of a line, row by row.
-
-        The line goes through ``p_D`` (3,) along the unit vector ``axis_D`` (3,). All points that
-        do lie so near are among them.
-        """
-        ...
+    The line goes through a point (3,) along a unit vector (3,). All points that do lie so near are
+    among them.
+    """
 
 
 @dataclass(frozen=True)

@@ -15,6 +15,8 @@ from typing import Annotated, Any, Literal, Union, get_args, get_origin
 from pydantic import BaseModel, GetCoreSchemaHandler
 from pydantic_core import CoreSchema, core_schema
 
+from inspect_cli.errors import EnvironmentFault
+
 
 def choice_of(names: Iterable[str]) -> Any:
     """The type of a text that is one of these names.
@@ -35,6 +37,14 @@ class OneOf:
     def __init__(
         self, models: Mapping[str, type[BaseModel]], key: str = "kind", default: str | None = None
     ) -> None:
+        for name, model in models.items():
+            field = model.model_fields.get(key)
+            if field is None or name not in _names(field.annotation):
+                raise EnvironmentFault(
+                    f"{model.__module__}.{model.__qualname__} is registered as {name!r}, "
+                    f"which its field {key!r} does not take",
+                    hint=f"give it {key}: Literal[{name!r}], or register it by its own name",
+                )
         self.models = models
         self.key = key
         self.default = default
@@ -61,6 +71,11 @@ class OneOf:
             return getattr(entry, self.key, default)
 
         return tag
+
+
+def _names(kind: Any) -> tuple[object, ...]:
+    """The texts of a Literal, which may be optional."""
+    return tuple(name for part in get_args(kind) for name in (_names(part) or (part,)))
 
 
 def one_of(kind: Any) -> OneOf | None:

@@ -10,7 +10,7 @@ from __future__ import annotations
 import numpy as np
 
 from inspect_cli.compiled import kernel
-from inspect_cli.records import DepthImage
+from inspect_cli.records import DepthImage, Pixels
 from inspect_cli.schema.vehicle import DepthCameraModel
 from inspect_cli.sensing.instrument import Surroundings
 from inspect_cli.spatial.arrays import Indices, Matrix, Points, Vector
@@ -61,7 +61,8 @@ class DepthCamera:
         self._selected, self._far_enough = self._every.copy(), self._farthest.copy()
         self._near_D = np.empty((n_rays, 3))
         self._p_WD, self._R_WD = np.zeros(3), np.eye(3)
-        self._image = DepthImage(0.0, self)
+        self._pixels = Pixels(self.all, self.near)
+        self._image = DepthImage(0.0, self._pixels)
 
     @property
     def measurement(self) -> DepthImage:
@@ -81,7 +82,7 @@ class DepthCamera:
         self._p_WD[:], self._R_WD[:] = p_WD, R_WD
         self._rng.standard_normal(out=self._noise)
         self._complete = False
-        self._image = DepthImage(state.t_s, self)
+        self._image = DepthImage(state.t_s, self._pixels)
         return self._image
 
     def all(self) -> Points:

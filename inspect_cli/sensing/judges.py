@@ -16,7 +16,9 @@ from inspect_cli.schema.vehicle import PlatformBase
 from inspect_cli.sensing.half_cell_judge import half_cell_judging
 
 JUDGES: dict[str, Callable[[Any], Judging]] = registered(
-    "inspect_cli.judges", {"half_cell": half_cell_judging}
+    "inspect_cli.judges",
+    {"half_cell": half_cell_judging},
+    Callable,
 )
 """By the instrument; takes the model of its sensor."""
 

@@ -28,6 +28,7 @@ SENSORS: dict[str, Callable[[Any, Surroundings], SimulatedSensor]] = registered(
         "depth_camera": depth_camera,
         "half_cell": half_cell_probe,
     },
+    Callable,
 )
 
 

@@ -14,6 +14,7 @@ from time import perf_counter
 import numpy as np
 
 from inspect_cli.autonomy.executive import Executive
+from inspect_cli.errors import InputError
 from inspect_cli.log.writer import LogWriter
 from inspect_cli.records import (
     DepthImage,
@@ -46,6 +47,11 @@ from inspect_cli.vehicles.kinds import Vehicle
 
 PROGRESS_S = 0.1
 """Between two calls of ``progress``."""
+
+
+def _loop(name: str) -> str:
+    """What a loop of the stack is called in the schedule, whatever sensors are called."""
+    return f"loop {name}"
 
 
 @dataclass(frozen=True)
@@ -123,11 +129,11 @@ class Flight:
                 mount.listeners = self._listeners(mount)
         for judging in judges.values():
             log.declare(judging.reading)
-        due = {mount.name: mount.rate_hz for mount in self.mounts} | {
+        due = {mount.due: mount.rate_hz for mount in self.mounts} | {
             "mission": rates.mission_hz,
             "control": rates.control_hz,
             "log": rates.log_hz,
-            **self.stack.loops,
+            **{_loop(name): rate_hz for name, rate_hz in self.stack.loops.items()},
         }
         self.clock = Clock(rates.physics_hz, due)
         self._limit_s = limit_s + 60.0
@@ -169,10 +175,10 @@ class Flight:
     def _tick(self, tick: Tick) -> None:
         due, plant, stack = tick.due, self.plant, self.stack
         for mount in self.mounts:
-            if mount.name in due:
+            if mount.due in due:
                 mount.deliver(self.truth)
         for loop in stack.loops:
-            if loop in due:
+            if _loop(loop) in due:
                 stack.run(loop, tick.t_s)
         if "mission" in due:
             self._decide(tick.t_s)
@@ -200,9 +206,12 @@ class Flight:
 
     def _hear(self, measurement: Measurement) -> None:
         """Hand a measurement to the stack, and what it makes of it to the executive."""
-        heard = self.stack.hear(measurement)
-        if heard is not None:
+        heard: object = self.stack.hear(measurement)
+        if isinstance(heard, Record):
             self.executive.hear(heard)
+        elif heard is not None:
+            what = f"{type(self.stack).__name__}.hear returned {heard!r}"
+            raise InputError(what, hint="a flight stack returns a Record, or None")
 
     def _see(self, camera: str, image: DepthImage) -> None:
         """Have the stack turn the image of a camera, given by its name, into a surface estimate."""

@@ -33,6 +33,8 @@ class Mount:
 
     def __init__(self, name: str, rate_hz: int, sensor: SimulatedSensor) -> None:
         self.name = name
+        self.due = f"sensor {name}"
+        """Its name in the schedule, where loops stand beside sensors."""
         self.rate_hz = rate_hz
         self.sensor = sensor
         self.listeners: tuple[Listener, ...] = ()

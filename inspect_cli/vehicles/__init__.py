@@ -16,7 +16,9 @@ from inspect_cli.vehicles.kinds import Vehicle
 from inspect_cli.vehicles.tilt_rotor import TiltRotor
 
 VEHICLES: dict[str, Callable[[Any], Vehicle]] = registered(
-    "inspect_cli.vehicles", {"tilt_rotor": TiltRotor}
+    "inspect_cli.vehicles",
+    {"tilt_rotor": TiltRotor},
+    Callable,
 )
 
 

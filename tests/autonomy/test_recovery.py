@@ -9,6 +9,7 @@ from script import TICK_S, Script
 
 from inspect_cli.autonomy.failsafe import Failsafe
 from inspect_cli.autonomy.modes import Mode, Order, by_name
+from inspect_cli.errors import InputError
 from inspect_cli.schema.modes import Phase
 from inspect_cli.vehicles.fully_actuated import BEHAVIOUR
 from inspect_cli.vehicles.fully_actuated.failsafes import BACK_OFF, NEAR_SURFACE
@@ -138,5 +139,5 @@ def test_submitted_orders_come_before_those_that_wait() -> None:
 
 
 def test_an_order_for_a_mode_that_is_not_there_is_refused() -> None:
-    with pytest.raises(KeyError, match="crawl"):
+    with pytest.raises(InputError, match="crawl"):
         script().executive.submit(Order("crawl"))

@@ -2,19 +2,26 @@
 
 from __future__ import annotations
 
+import sys
+from collections.abc import Callable
 from pathlib import Path
+from typing import Literal
 
 import pytest
+from pydantic import BaseModel
 
 from inspect_cli.errors import EnvironmentFault
 from inspect_cli.plugins import registered
+from inspect_cli.schema.registry import OneOf
 
 GROUP = "inspect_cli.tests"
 
 
-def _install(folder: Path, package: str, rows: dict[str, str]) -> None:
+def _install(
+    folder: Path, package: str, rows: dict[str, str], text: str = "ROW = 'from outside'\n"
+) -> None:
     """A package as an installer leaves it: one module, and metadata with its entry points."""
-    (folder / f"{package}.py").write_text("ROW = 'from outside'\n")
+    (folder / f"{package}.py").write_text(text)
     metadata = folder / f"{package}-1.0.dist-info"
     metadata.mkdir()
     (metadata / "METADATA").write_text(f"Metadata-Version: 2.1\nName: {package}\nVersion: 1.0\n")
@@ -54,3 +61,35 @@ def test_a_row_that_cannot_be_imported_names_its_package(site: Path, value: str)
     _install(site, "outside_four", {"broken": value})
     with pytest.raises(EnvironmentFault, match=r"package outside_four registers 'broken'"):
         registered(GROUP, {})
+
+
+@pytest.mark.parametrize(
+    "text", ["def (:", "ROW = Foo", "raise ValueError('x')", "raise SystemExit(0)"]
+)
+def test_a_module_that_fails_names_its_package(
+    site: Path, monkeypatch: pytest.MonkeyPatch, text: str
+) -> None:
+    """Whatever a package does when it is imported, nothing goes on without a word."""
+    monkeypatch.delitem(sys.modules, "outside_five", raising=False)
+    _install(site, "outside_five", {"broken": "outside_five:ROW"}, text)
+    with pytest.raises(EnvironmentFault, match=r"package outside_five registers 'broken'"):
+        registered(GROUP, {})
+
+
+@pytest.mark.parametrize(("kind", "word"), [(int, "int"), (Callable, "Callable")])
+def test_a_row_of_another_kind_is_refused(site: Path, kind: type, word: str) -> None:
+    """A text is neither a number nor can it be called."""
+    _install(site, "outside_six", {"odd": "outside_six:ROW"})
+    with pytest.raises(EnvironmentFault, match=f"outside_six:ROW, which is no {word}"):
+        registered(GROUP, {}, kind)
+
+
+def test_a_model_is_registered_by_the_name_that_it_takes() -> None:
+    """Otherwise no file could name it."""
+
+    class Baro(BaseModel):
+        kind: Literal["baro"]
+
+    OneOf({"baro": Baro})
+    with pytest.raises(EnvironmentFault, match="Baro is registered as 'barometer'"):
+        OneOf({"barometer": Baro})

@@ -44,7 +44,7 @@ def test_a_sensor_without_kind_is_told_how_it_is_written_now(
     line = text.splitlines().index(f"  {name}:") + 1
     (message,) = refusals(tmp_path, text)
     assert message == (
-        f"v.yaml:{line}:3: sensors.{name}: {name} does not say its kind and rate_hz\n    {instead}"
+        f"v.yaml:{line}:3: sensors.{name}: {name} does not say its kind\n    {instead}"
     )
 
 
@@ -210,3 +210,13 @@ def test_the_inertial_unit_may_fail_too(campaign: Path) -> None:
     text = mission.read_text()
     mission.write_text(text.replace("\nacceptance:", "\n  faults: [{sensor: imu}]\nacceptance:"))
     assert load_mission(mission).truth.faults[0].sensor == "imu"
+
+
+@pytest.mark.parametrize("name", ["tool", "body", "wall", "wind"])
+def test_a_sensor_is_not_called_as_something_else_is(tmp_path: Path, name: str) -> None:
+    """Frames, the wall's force sensor and the gusts are asked for by these names."""
+    base = HEXAROTOR.replace("\n  tof:\n", f"\n  {name}:\n")
+    (message,) = refusals(tmp_path, base)
+    line = base.splitlines().index(f"  {name}:") + 2
+    assert message.startswith(f"v.yaml:{line}:5: sensors.{name}: ")
+    assert f"a sensor cannot be called {name!r}" in message

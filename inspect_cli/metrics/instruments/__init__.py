@@ -37,4 +37,6 @@ def _checked(rows: Mapping[str, Instrument]) -> dict[str, Instrument]:
     return dict(rows)
 
 
-INSTRUMENTS: dict[str, Instrument] = _checked(registered(GROUP, {"half_cell": half_cell.ROW}))
+INSTRUMENTS: dict[str, Instrument] = _checked(
+    registered(GROUP, {"half_cell": half_cell.ROW}, Instrument)
+)

@@ -27,6 +27,7 @@ TASK_PLANNERS: dict[str, Callable[[Asked], Planners]] = registered(
         "trace": trace.planners_of,
         "servo": servo.planners_of,
     },
+    Callable,
 )
 """By the kind of task. A coverage has none: it is split into sorties by ``planning.coverage``."""
 

@@ -51,5 +51,5 @@ def chapters() -> dict[str, Chapter]:
     Raises:
         EnvironmentFault: an installed chapter cannot be imported or has a name that is taken.
     """
-    found = registered(GROUP, CHAPTERS)
+    found = registered(GROUP, CHAPTERS, Chapter)
     return dict(sorted(found.items(), key=lambda row: row[1].appendix))

@@ -34,6 +34,7 @@ __all__ = [
 DISTURBANCES: dict[str, type[DisturbanceModel]] = registered(
     "inspect_cli.disturbances",
     {"constant": ConstantWrench, "rope": Rope, "wind": Wind, "cable": Cable},
+    DisturbanceModel,
 )
 
 Disturbance = Annotated[DisturbanceModel, OneOf(DISTURBANCES, default="constant")]

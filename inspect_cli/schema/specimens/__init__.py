@@ -28,6 +28,7 @@ __all__ = [
 SPECIMENS: dict[str, type[SpecimenModel]] = registered(
     "inspect_cli.specimens",
     {"analytic": AnalyticSpecimen, "grid": GridSpecimen, "macro_cell": MacroCellSpecimen},
+    SpecimenModel,
 )
 
 Specimen = Annotated[SpecimenModel, OneOf(SPECIMENS, key="model")]

@@ -38,6 +38,7 @@ TASK_KINDS: dict[str, TaskKind] = registered(
         "trace": trace.KIND,
         "servo": servo.KIND,
     },
+    TaskKind,
 )
 """Every kind of task by its key in the mission, in the order in which messages list them."""
 

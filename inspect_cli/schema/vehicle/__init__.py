@@ -48,5 +48,7 @@ __all__ = [
 ]
 
 PLATFORM_KINDS: dict[str, type[PlatformBase]] = registered(
-    "inspect_cli.platforms", {"tilt_rotor": TiltRotorPlatform}
+    "inspect_cli.platforms",
+    {"tilt_rotor": TiltRotorPlatform},
+    PlatformBase,
 )

@@ -24,10 +24,19 @@ from inspect_cli.schema.vehicle.sensors import (
 Sensor = TypeVar("Sensor", bound=SensorModel)
 
 
+RESERVED = {
+    "tool": "that is a frame of the vehicle",
+    "body": "that is a frame of the vehicle",
+    "wall": "that is the force sensor in a wall, of the mission's truth",
+    "wind": "that is a disturbance, whose random numbers go by that name",
+}
+"""Names that mean something else where a sensor is asked for by its name."""
+
+
 class Rates(Strict):
     """Ticks per second of what is no sensor. Every rate divides the physics rate."""
 
-    physics_hz: Count = 1000
+    physics_hz: Annotated[int, Field(ge=1, le=100_000)] = 1000
     control_hz: Count = 250
     mission_hz: Count = 50
     guidance_hz: Count = 5
@@ -167,6 +176,9 @@ def refuse_unfit_sensors(platform: PlatformBase) -> None:
     sensors, physics_hz = platform.sensors, platform.rates.physics_hz
     refused: list[tuple[tuple[str, ...], str]] = []
     for name, sensor in sensors.items():
+        if name in RESERVED:
+            what = f"a sensor cannot be called {name!r}: {RESERVED[name]}"
+            refused.append((("sensors", name), what))
         if sensor.rate_hz > physics_hz:
             what = f"rate_hz {sensor.rate_hz} is above physics_hz {physics_hz}"
             refused.append((("sensors", name, "rate_hz"), what))

@@ -50,7 +50,8 @@ def _rates(rates: Node) -> Iterator[Problem]:
 def _sensor(name: str, sensor: Node) -> Iterator[Problem]:
     place = sensor.child("position_B_m")
     if sensor.child("kind") is None and name in INSTEAD and isinstance(sensor.value, dict):
-        what = f"{name} does not say its kind and rate_hz"
+        missing = "kind" if sensor.child("rate_hz") is not None else "kind and rate_hz"
+        what = f"{name} does not say its {missing}"
         yield Problem(what, sensor.key_at(f"sensors.{name}"), f"write {INSTEAD[name]}")
     elif place is not None:
         numbers = [shown(axis.value) for _, axis in place.children()] or ["x", "y", "z"]

@@ -25,6 +25,7 @@ __all__ = ["LOADS", "Disturbances", "Load", "Motion"]
 LOADS: dict[str, Callable[[Any, Circumstances], Model]] = registered(
     "inspect_cli.loads",
     {"constant": constant_load, "rope": rope_load, "wind": wind_load, "cable": cable_load},
+    Callable,
 )
 
 

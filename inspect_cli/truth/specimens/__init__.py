@@ -26,6 +26,7 @@ FIELDS: dict[str, Callable[[Any, Path, Patch | None], SpecimenField]] = register
         "grid": lambda model, root, patch: grid_field(model, root),
         "macro_cell": lambda model, root, patch: macro_cell_field(model, patch),
     },
+    Callable,
 )
 
 

@@ -47,6 +47,7 @@ SENSORS: dict[str, type[SensorModel]] = registered(
         "depth_camera": DepthCameraModel,
         "half_cell": HalfCellModel,
     },
+    SensorModel,
 )
 """In the order in which a flight samples them: what corrects the estimate comes before what is
 placed by it."""

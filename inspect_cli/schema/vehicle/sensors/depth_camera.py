@@ -29,8 +29,8 @@ class DepthCameraModel(SensorModel):
 
     kind: Literal["depth_camera"]
     mount: MountModel
-    columns: Annotated[int, Field(ge=64)]
-    rows: Annotated[int, Field(ge=48)]
+    columns: Annotated[int, Field(ge=64, le=4096)]
+    rows: Annotated[int, Field(ge=48, le=4096)]
     field_of_view_deg: tuple[PinholeAngle, PinholeAngle]
     range_m: Annotated[tuple[Positive, Positive], AfterValidator(_rising)]
     noise_m: NonNegative
