@@ -7,7 +7,7 @@ the times are those of the processor, summed over threads, so that other work on
 not count.
 
 Limits are at most 1.3 × the ratio that was measured when they were set, but for those that say
-otherwise. They were measured on a busy machine of two cores.
+otherwise. They were measured on a machine of two cores.
 """
 
 from __future__ import annotations
