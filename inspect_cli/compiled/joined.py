@@ -5,7 +5,7 @@ for a kernel of a dozen arrays, and the interpreter's own work on top. Here a sm
 written in LLVM's language, holds the addresses and shapes of all arrays as constants and calls one
 kernel after the other. A call of it from Python costs 0.15 µs, however many kernels it holds.
 
-The kernels stay those that ``kernel`` compiled and cached; joining five of them takes 50 ms. With
+The kernels stay those that ``kernel`` compiled and cached; joining five of them takes 20 ms. With
 ``NUMBA_DISABLE_JIT=1`` they are called one by one. A kernel that is joined must not raise: nobody
 would hear it.
 """

@@ -168,3 +168,46 @@ def test_a_vault_is_seen_as_its_heights_say(root):
     assert seen.sum() > 2500
     away = [abs(foot_on(solids, 0, p)[2]) for p in points[seen][::7]]
     assert max(away) < 2e-6
+
+
+def near(points, p, axis, radius):
+    """The points whose distance from a line is within the radius."""
+    off = points - p
+    across = off - np.outer(off @ axis, axis)
+    return points[np.linalg.norm(across, axis=1) <= radius]
+
+
+@pytest.mark.parametrize("scene", ["wall", "ball", "vault"])
+def test_what_lies_near_a_line_is_what_the_whole_image_shows_there(scene, request):
+    """Every point near twelve random lines, to the bit and in the order of the image."""
+    if scene == "vault":
+        shape = MeshShape(file="missions/scans/vault.ply", normal=(0.0, 0.0, -1.0))
+        relief = mesh_relief(shape, Displacement(), request.config.rootpath)
+        solids = Solids(np.zeros(0, PRIMITIVE), relief.row, relief.nodes)
+        state = state_at([0.0, 0.0, 3.0], roll_pitch_yaw_matrix(0.0, -1.4, 0.0))
+    else:
+        seen = plane([1.0, 0.0, 1.0], [-0.9, 0.3, 0.3], [20.0, 20.0])
+        prims = (
+            seen if scene == "wall" else sphere([1.2, 0.0, 1.0], 0.4, [-1.0, 0.0, 0.0], [9.0, 9.0])
+        )
+        solids, state = Solids(prims), state_at([0.0, 0.0, 1.0])
+    cam = DepthCamera(model(0.004, 0.002), solids, np.random.default_rng(1))
+    rng = np.random.default_rng(2)
+    found = 0
+    for _ in range(12):
+        image = cam.sample(Truth(state))
+        p, axis = rng.normal(scale=0.1, size=3), np.append(rng.normal(scale=0.2, size=2), 1.0)
+        axis /= np.linalg.norm(axis)
+        first = near(image.pixels.near(p, axis, 0.1).copy(), p, axis, 0.1)
+        whole = near(image.points_D, p, axis, 0.1)
+        assert np.array_equal(first, whole)
+        assert np.array_equal(near(image.pixels.near(p, axis, 0.1), p, axis, 0.1), whole)
+        found += len(whole)
+    assert found > 200
+
+
+def test_an_image_hands_out_points_and_nothing_true():
+    """Surfaces and the camera's pose are the simulator's; a stack is handed two functions."""
+    image = camera(plane([1.5, 0.0, 1.0], [-1.0, 0.0, 0.0], [20.0, 20.0])).measurement
+    assert set(vars(image)) == {"t_s", "pixels"}
+    assert set(vars(image.pixels)) == {"all", "near"}

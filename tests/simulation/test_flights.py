@@ -12,12 +12,14 @@ import pytest
 from modes import Mode
 from scenarios import ONE_POINT, Array, Flown, Scenario
 
+from inspect_cli.errors import InputError
 from inspect_cli.records import Record, State
 from inspect_cli.simulation.mounts import Mount
 from inspect_cli.simulation.plant import Plant
 from inspect_cli.simulation.recorder import Recorder
 from inspect_cli.truth.contact import ContactTruth
 from inspect_cli.vehicles.fully_actuated.impedance_control import ImpedanceControl
+from inspect_cli.vehicles.fully_actuated.stack import FullyActuatedStack
 
 Fly = Callable[[Scenario], Flown]
 pytestmark = pytest.mark.xdist_group("flights")
@@ -302,3 +304,23 @@ def test_a_calomel_electrode_in_warm_concrete_comes_back_to_the_standards_scale(
     assert result.value("half_cell.potential_error_max_v") < 0.005
     (wall,) = result.assessment
     assert (wall.basis.electrode, wall.basis.temperature_c) == ("SCE", 35.0)
+
+
+def test_a_camera_may_be_called_as_a_loop_is(campaign: Path) -> None:
+    """It keeps its own rate: an estimate of the surface every 100 ms."""
+    text = (campaign / "platforms" / "tilt_rotor_hexarotor.yaml").read_text()
+    text = text.replace("name: tilt_rotor_hexarotor\n", "name: named\n")
+    (campaign / "platforms" / "named.yaml").write_text(text.replace("\n  tof:\n", "\n  control:\n"))
+    named = Scenario("named", tasks=f"platform: named\n{ONE_POINT}").fly(campaign)
+    times = named.log.channels["/guidance/surface"]["t_s"]
+    assert len(times) > 100
+    np.testing.assert_allclose(np.diff(times), 0.1, atol=1e-9)
+
+
+def test_a_stack_that_answers_with_no_record_is_refused(
+    campaign: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """With its answer: the flight would end for a reason that misleads."""
+    monkeypatch.setattr(FullyActuatedStack, "hear", lambda stack, sample: "pose")
+    with pytest.raises(InputError, match=r"FullyActuatedStack\.hear returned 'pose'"):
+        Scenario("nonsense", tasks=ONE_POINT).fly(campaign)
